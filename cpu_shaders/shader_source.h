@@ -1,0 +1,38 @@
+// GLSL with its includes resolved: what both machines start from.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace twinshade {
+
+// One fragment shader, whole. Lines of `text` map back to files through `files`: the text contains
+//   #line N "path"     (GL_GOOGLE_cpp_style_line_directive; what glslang gets)
+// and gl_text() turns those into  #line N k  for drivers, k an index into files.
+struct ShaderSource {
+  std::string name;   // technique name, or the user's file name without folder and ending
+  std::string text;   // no #version line unless the author wrote one; then it is the first line
+  std::vector<std::string> files;  // as they appear in messages; files[0] is the main file
+  int version = 450;               // of the author's #version line, 450 where there is none
+  bool es = false;
+};
+
+// Searches, in order: the folder of the including file, then `include_folders`, then the built-in shaders (embedded in the
+// binary, addressed as "exact/dot.glsl", "basis/sh.glsl" ...). Include once per file: a second #include of the same file is empty.
+// UserError "file:line: cannot include "x": not found in ..." ; include loops are impossible by construction.
+ShaderSource load_shader(const std::string& path, const std::vector<std::string>& include_folders = {});
+ShaderSource resolve_shader(const std::string& name, const std::string& main_text, const std::string& main_path,
+                            const std::vector<std::string>& include_folders = {});
+
+// Text for an OpenGL driver: the given version line, optional lines after it, #line with numbers.
+std::string gl_text(const ShaderSource& source, const std::string& version_line, const std::string& extra_lines);
+
+// Rewrites the "k:line" or "k(line)" positions of a Mesa log into "file:line".
+std::string map_driver_log(const ShaderSource& source, const std::string& log);
+
+// SHA-256 of version, es and text.
+std::string source_hash(const ShaderSource& source);
+
+}  // namespace twinshade

@@ -1,0 +1,27 @@
+// OpenGL on the CPU or GPU, each draw in a worker process of our own binary with its own environment and time limit.
+#pragma once
+
+#include "raster/renderer.h"
+
+namespace twinshade {
+
+enum class GlBackend : std::uint8_t { egl, osmesa, softpipe };
+
+struct GlEnvironment {
+  int threads = 0;                 // LP_NUM_THREADS; 0: as thread_count()
+  bool host_fma = true;            // false: GALLIUM_OVERRIDE_CPU_CAPS=sse4.1
+  std::vector<std::pair<std::string, std::string>> extra;  // further variables for the worker
+};
+
+// Does not start anything yet. softpipe: shading only; draw() needs `cpu_frame` with captured attributes, see
+// shade_on_softpipe.
+std::unique_ptr<Renderer> make_gl_renderer(GlBackend backend, const GlEnvironment& environment = {});
+
+// Shades on softpipe the pixels that cpu_frame covers, from cpu_frame.attributes (captured). Other pixels stay as cleared.
+Frame shade_on_softpipe(const Bundle& bundle, const ShaderSource& source, const Frame& cpu_frame,
+                        const GlEnvironment& environment, double time_limit_seconds);
+
+// To be called first thing in main(): if this process was started as a worker, serves the parent and returns its exit code.
+std::optional<int> run_gl_worker_if_asked(int argc, char** argv);
+
+}  // namespace twinshade

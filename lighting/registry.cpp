@@ -1,0 +1,47 @@
+#include "lighting/registry.h"
+
+#include <array>
+
+#include "base/error.h"
+#include "base/names.h"
+
+namespace twinshade {
+namespace {
+
+constexpr TechniqueInfo kTechniques[] = {
+#define BASIS(name, file, domain, count, linear, source) {#name, #file, true, Domain::domain, count, linear, source},
+#define TECHNIQUE(name, file, source) {#name, #file, false, Domain::hemisphere, 0, false, source},
+#include "lighting/registry.def"
+#undef BASIS
+#undef TECHNIQUE
+};
+
+}  // namespace
+
+std::span<const TechniqueInfo> techniques() { return kTechniques; }
+
+const TechniqueInfo& find_technique(std::string_view name) {
+  for (const TechniqueInfo& technique : kTechniques)
+    if (technique.name == name) return technique;
+  std::vector<std::string> names;
+  for (const TechniqueInfo& technique : kTechniques) names.emplace_back(technique.name);
+  throw UserError(unknown_name_message("technique", std::string(name), names));
+}
+
+ShaderSource technique_source(const TechniqueInfo& technique, CoefficientStorage storage) {
+  const std::string name(technique.name), file(technique.file);
+  const bool vertex = storage == CoefficientStorage::vertex;
+  std::string text = vertex ? "#define TWINSHADE_VERTEX_COEFFICIENTS 1\n" : "";
+  if (technique.is_basis) {
+    text += "#define COEFFICIENTS coefficients_" + name + "\n";
+    text += "#include \"technique/surface.glsl\"\n";
+    text += "#include \"technique/coefficients_" + std::string(vertex ? "vertex" : "lightmap") + ".glsl\"\n";
+    text += "#include \"basis/" + file + "\"\n";
+    text += "#include \"technique/irradiance_main.glsl\"\n";
+  } else {
+    text += "#include \"technique/" + file + "\"\n";
+  }
+  return resolve_shader(vertex ? name + "_vertex" : name, text, name);
+}
+
+}  // namespace twinshade

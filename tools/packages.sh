@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# Installs what the build needs, from Debian 12's packages; nothing to do where all are there already. Sourced by the
+# other scripts, runs alone too. "all" adds what `tools/test.sh --all` needs.
+set -euo pipefail
+
+packages=(ca-certificates cmake ninja-build g++ pkg-config
+  glslang-dev spirv-headers libglm-dev libopenimageio-dev doctest-dev
+  libegl-dev libgl-dev libegl1 libegl-mesa0 libgl1-mesa-dri libosmesa6
+  libeigen3-dev libembree-dev libtbb-dev libassimp-dev libcli11-dev nlohmann-json3-dev libfmt-dev)
+if [ "${1:-}" = all ]; then
+  packages+=(clang libclang-rt-14-dev g++-aarch64-linux-gnu qemu-user)
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing+=("$package")
+done
+if [ ${#missing[@]} -gt 0 ]; then
+  if [ "$(id -u)" -eq 0 ]; then root=(); else root=(sudo); fi
+  echo "installing: ${missing[*]}"
+  export DEBIAN_FRONTEND=noninteractive
+  "${root[@]}" apt-get update -qq
+  "${root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+fi

@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# Installs packages, builds `release` and runs every test that is not labelled slow.
+#   tools/test.sh --all   also the slow tests, clang, the sanitizers and AArch64
+set -euo pipefail
+cd "$(dirname "$0")/.."
+all=no
+case "${1:-}" in
+  "") ;;
+  --all) all=yes ;;
+  *) echo "usage: tools/test.sh [--all]" >&2; exit 2 ;;
+esac
+
+if [ $all = yes ]; then tools/packages.sh all; else tools/packages.sh; fi
+
+build() { cmake --preset "$1" >/dev/null && cmake --build --preset "$1"; }
+
+build release
+if [ $all = no ]; then
+  ctest --preset release --label-exclude slow
+  exit
+fi
+ctest --preset release
+for preset in clang asan tsan; do
+  build $preset
+  ctest --preset $preset --label-exclude "slow|across-builds"
+done
+tools/same_bits.sh build/release/twinshade build/clang/twinshade

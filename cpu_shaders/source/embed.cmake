@@ -1,0 +1,12 @@
+# cmake -D OUTPUT=x.cpp -D ROOT=shaders -D FILES=a;b -P embed.cmake: writes the files as raw string literals.
+set(text "// Made by embed.cmake from shaders/.\n#include \"cpu_shaders/source/builtin_shaders.h\"\n\n")
+string(APPEND text "namespace twinshade::detail {\n\nextern const BuiltinShader kBuiltinShaders[];\n")
+string(APPEND text "extern const std::size_t kBuiltinShaderCount;\n\nconst BuiltinShader kBuiltinShaders[] = {\n")
+set(count 0)
+foreach(file IN LISTS FILES)
+  file(READ ${ROOT}/${file} content)
+  string(APPEND text "{\"${file}\", R\"~glsl~(${content})~glsl~\"},\n")
+  math(EXPR count "${count} + 1")
+endforeach()
+string(APPEND text "{\"\", \"\"}};\nconst std::size_t kBuiltinShaderCount = ${count};\n\n}  // namespace twinshade::detail\n")
+file(WRITE ${OUTPUT} "${text}")

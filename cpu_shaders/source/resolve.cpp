@@ -1,0 +1,211 @@
+// Resolves #include and leaves #line behind, so that every later message can name the author's file and line.
+//
+// #version moves to the first line. #extension lines outside conditionals move up behind it: they must precede all
+// code, and a file that needs one may be included after some.
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <optional>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/hash.h"
+#include "cpu_shaders/shader_source.h"
+#include "cpu_shaders/source/builtin_shaders.h"
+#include "cpu_shaders/source/directive_scan.h"
+
+namespace twinshade {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct File {
+  std::string shown;     // in messages
+  std::string folder;    // where its own includes are looked for first; built-in: relative to shaders/
+  std::string identity;  // equal for the same file reached by different names
+  std::string text;
+  bool builtin = false;
+};
+
+std::string unix_lines(std::string text) {
+  if (text.compare(0, 3, "\xef\xbb\xbf") == 0) text.erase(0, 3);
+  text.erase(std::remove(text.begin(), text.end(), '\r'), text.end());
+  return text;
+}
+
+File builtin_file(const std::string& name, std::string_view text) {
+  return {"shaders/" + name, fs::path(name).parent_path().string(), "builtin:" + name, std::string(text), true};
+}
+
+std::optional<File> open_file(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return std::nullopt;
+  File file;
+  file.shown = path.lexically_normal().string();
+  file.folder = path.parent_path().string();
+  const fs::path canonical = fs::weakly_canonical(path, error);
+  file.identity = error ? file.shown : canonical.string();
+  file.text = unix_lines(read_file(path.string()));
+  return file;
+}
+
+// The same built-in reached on disk and in the binary is one file.
+void unite_with_builtin(File& file) {
+  const std::size_t folder = file.identity.rfind("/shaders/");
+  if (file.builtin || folder == std::string::npos) return;
+  const std::string name = file.identity.substr(folder + 9);
+  const auto builtin = builtin_shader(name);
+  if (builtin && unix_lines(std::string(*builtin)) == file.text) file.identity = "builtin:" + name;
+}
+
+class Resolver {
+ public:
+  explicit Resolver(const std::vector<std::string>& include_folders) : include_folders_(include_folders) {}
+
+  void resolve(File file) {
+    unite_with_builtin(file);
+    const bool main = identities_.empty();
+    identities_.push_back(file.identity);
+    files_.push_back(file.shown);
+    int conditional_depth = 0;
+    line_directive(1, file.shown);
+    for (const SourceLine& line : scan_lines(file.text)) {
+      const std::string where = file.shown + ":" + std::to_string(line.number) + ": ";
+      if (line.directive == "if" || line.directive == "ifdef" || line.directive == "ifndef") ++conditional_depth;
+      if (line.directive == "endif") --conditional_depth;
+      if (line.directive == "include") {
+        include(file, line, where);
+      } else if (line.directive == "version") {
+        version(line, where, main);
+        blank(line);
+      } else if (line.directive == "extension" && replaced_extension(line.arguments)) {
+        blank(line);
+      } else if (line.directive == "extension" && conditional_depth == 0) {
+        prologue_ +=
+            "#line " + std::to_string(line.number) + " " + quoted(file.shown) + "\n#extension " + line.arguments + "\n";
+        blank(line);
+      } else {
+        body_ += line.text;
+        body_ += '\n';
+      }
+    }
+  }
+
+  ShaderSource finish(const std::string& name) {
+    ShaderSource source;
+    source.name = name;
+    source.text = version_line_ + prologue_ + body_;
+    source.files = files_;
+    source.version = version_;
+    source.es = es_;
+    return source;
+  }
+
+ private:
+  // The directives that ask for what has been done here already.
+  static bool replaced_extension(const std::string& arguments) {
+    for (const char* name :
+         {"GL_GOOGLE_include_directive", "GL_GOOGLE_cpp_style_line_directive", "GL_ARB_shading_language_include"})
+      if (arguments.compare(0, std::string(name).size(), name) == 0) return true;
+    return false;
+  }
+
+  static std::string quoted(std::string path) {
+    std::replace(path.begin(), path.end(), '"', '\'');
+    std::replace(path.begin(), path.end(), '\n', ' ');
+    return '"' + path + '"';
+  }
+
+  void line_directive(int next_line, const std::string& shown) {
+    body_ += "#line " + std::to_string(next_line) + " " + quoted(shown) + "\n";
+  }
+
+  void blank(const SourceLine& line) {
+    body_.append(static_cast<std::size_t>(std::count(line.text.begin(), line.text.end(), '\n')) + 1, '\n');
+  }
+
+  void version(const SourceLine& line, const std::string& where, bool main) {
+    if (!main) throw UserError(where + "#version in an included file: move it to the main file");
+    std::size_t digits = 0;
+    while (digits < line.arguments.size() && std::isdigit(static_cast<unsigned char>(line.arguments[digits]))) ++digits;
+    if (digits != 3) throw UserError(where + "#version wants a number such as 450, got \"" + line.arguments + "\"");
+    version_ = std::stoi(line.arguments.substr(0, digits));
+    es_ = version_ == 100 || line.arguments.find("es", digits) != std::string::npos;
+    version_line_ = "#version " + line.arguments + "\n";
+  }
+
+  void include(const File& from, const SourceLine& line, const std::string& where) {
+    const std::string& a = line.arguments;
+    const bool quotes = a.size() > 2 && a.front() == '"' && a.back() == '"';
+    const bool angles = a.size() > 2 && a.front() == '<' && a.back() == '>';
+    if (!quotes && !angles) throw UserError(where + "#include wants \"file\", got " + (a.empty() ? "nothing" : a));
+    const std::string wanted = a.substr(1, a.size() - 2);
+    File file = find(from, wanted, where);
+    unite_with_builtin(file);
+    if (std::find(identities_.begin(), identities_.end(), file.identity) == identities_.end()) {
+      resolve(std::move(file));
+      if (body_.empty() || body_.back() != '\n') body_ += '\n';
+    }
+    line_directive(line.number + static_cast<int>(std::count(line.text.begin(), line.text.end(), '\n')) + 1,
+                   from.shown);
+  }
+
+  File find(const File& from, const std::string& wanted, const std::string& where) const {
+    std::string looked;
+    if (from.builtin) {
+      const std::string beside = (fs::path(from.folder) / wanted).lexically_normal().string();
+      if (const auto text = builtin_shader(beside)) return builtin_file(beside, *text);
+      looked = "shaders/" + from.folder;
+    } else {
+      if (auto file = open_file(fs::path(from.folder) / wanted)) return *file;
+      looked = from.folder.empty() ? "." : from.folder;
+    }
+    for (const std::string& folder : include_folders_) {
+      if (auto file = open_file(fs::path(folder) / wanted)) return *file;
+      looked += ", " + folder;
+    }
+    const std::string normal = fs::path(wanted).lexically_normal().string();
+    if (const auto text = builtin_shader(normal)) return builtin_file(normal, *text);
+    throw UserError(where + "cannot include \"" + wanted + "\": not found in " + looked + ", built-in shaders");
+  }
+
+  const std::vector<std::string>& include_folders_;
+  std::vector<std::string> identities_, files_;
+  std::string version_line_, prologue_, body_;
+  int version_ = 450;
+  bool es_ = false;
+};
+
+}  // namespace
+
+ShaderSource resolve_shader(const std::string& name, const std::string& main_text, const std::string& main_path,
+                            const std::vector<std::string>& include_folders) {
+  File file;
+  file.shown = main_path;
+  file.folder = fs::path(main_path).parent_path().string();
+  file.identity = main_path;
+  file.text = unix_lines(main_text);
+  // A text made by the program under a built-in's name includes its neighbours from the binary.
+  if (main_path.compare(0, 8, "shaders/") == 0 && !fs::exists(main_path)) {
+    file.builtin = true;
+    file.folder = fs::path(main_path.substr(8)).parent_path().string();
+  }
+  Resolver resolver(include_folders);
+  resolver.resolve(std::move(file));
+  return resolver.finish(name);
+}
+
+ShaderSource load_shader(const std::string& path, const std::vector<std::string>& include_folders) {
+  const std::string text = read_file(path);
+  if (text.find('\0') != std::string::npos) throw UserError(path + ": not GLSL: it has zero bytes");
+  return resolve_shader(fs::path(path).stem().string(), text, path, include_folders);
+}
+
+std::string source_hash(const ShaderSource& source) {
+  Sha256 hash;
+  hash.add(std::to_string(source.version) + (source.es ? " es\n" : "\n"));
+  hash.add(source.text);
+  return hash.hex();
+}
+
+}  // namespace twinshade

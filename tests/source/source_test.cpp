@@ -1,0 +1,174 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <sstream>
+
+#include "base/error.h"
+#include "cpu_shaders/shader_source.h"
+#include "cpu_shaders/source/builtin_shaders.h"
+
+using namespace twinshade;
+
+namespace {
+
+struct Folder {
+  std::filesystem::path path = std::filesystem::temp_directory_path() / "twinshade_source_test";
+  Folder() {
+    std::filesystem::remove_all(path);
+    std::filesystem::create_directories(path / "inner");
+  }
+  ~Folder() { std::filesystem::remove_all(path); }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(path / name, std::ios::binary) << text;
+    return (path / name).string();
+  }
+};
+
+std::string error_of(const std::function<void()>& body) {
+  try {
+    body();
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// The line that a compiler honouring #line reports for the first line containing `needle`.
+std::string reported_position(const std::string& text, const std::string& needle) {
+  std::string file;
+  int next = 1;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line); ++next) {
+    if (line.rfind("#line ", 0) == 0) {
+      const std::size_t space = line.find(' ', 6);
+      next = std::stoi(line.substr(6, space - 6)) - 1;
+      file = line.substr(space + 1);
+    } else if (line.find(needle) != std::string::npos) {
+      return file + ":" + std::to_string(next);
+    }
+  }
+  return "not found";
+}
+
+std::size_t count_of(const std::string& text, const std::string& needle) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(needle); at != std::string::npos; at = text.find(needle, at + 1)) ++count;
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("includes are resolved beside the including file, in the include folders and among the built-ins") {
+  Folder folder;
+  folder.write("inner/leaf.glsl", "float leaf() { return 1.0; }\n");
+  folder.write("branch.glsl", "#include \"inner/leaf.glsl\"\nfloat branch() { return leaf(); }\n");
+  const std::string main = folder.write("main.frag",
+                                        "#include \"branch.glsl\"\n"
+                                        "#include <leaf.glsl>\n"
+                                        "#include \"exact/attributes.glsl\"\n"
+                                        "void main() {}\n");
+  const ShaderSource source = load_shader(main, {(folder.path / "inner").string()});
+  CHECK(source.name == "main");
+  CHECK(source.files.size() == 4);
+  CHECK(source.files[0] == main);
+  CHECK(source.files[3] == "shaders/exact/attributes.glsl");
+  CHECK(count_of(source.text, "float leaf()") == 1);  // reached twice, included once
+  CHECK(source.text.find("exact_barycentrics") != std::string::npos);
+  CHECK(reported_position(source.text, "void main") == '"' + main + "\":4");
+  CHECK(reported_position(source.text, "float branch") == '"' + source.files[1] + "\":2");
+  CHECK(reported_position(gl_text(source, "#version 330", ""), "float branch") == "1:2");
+}
+
+TEST_CASE("lines stay right after continued lines and comments") {
+  const ShaderSource source =
+      resolve_shader("t",
+                     "#define A 1 + \\\n  2\n"
+                     "/* #include \"nowhere\"\n*/ // #include \"nowhere\" \\\n #include \"nowhere\"\n"
+                     "#include /* a\nb */ \"exact/attributes.glsl\"\r\n"
+                     "float marker;\n",
+                     "t.frag");
+  CHECK(reported_position(source.text, "marker") == "\"t.frag\":8");
+}
+
+TEST_CASE("#version comes first, #extension before all code") {
+  const ShaderSource source = resolve_shader("t",
+                                             "// a comment\n#version 310 es\nfloat a;\n"
+                                             "#extension GL_OES_sample_variables : enable\n"
+                                             "#extension GL_GOOGLE_include_directive : require\n"
+                                             "#ifdef X\n#extension GL_KEPT_in_place : enable\n#endif\nfloat b;\n",
+                                             "t.frag");
+  CHECK(source.version == 310);
+  CHECK(source.es);
+  CHECK(source.text.rfind("#version 310 es\n", 0) == 0);
+  CHECK(source.text.find("GL_OES_sample_variables") < source.text.find("float a"));
+  CHECK(source.text.find("GL_KEPT_in_place") > source.text.find("float a"));
+  CHECK(source.text.find("include_directive") == std::string::npos);
+  CHECK(reported_position(source.text, "float b") == "\"t.frag\":9");
+
+  const std::string text = gl_text(source, "#version 450", "uniform float extra;");
+  CHECK(text.rfind("#version 450\n", 0) == 0);
+  CHECK(count_of(text, "#version") == 1);
+  CHECK(text.find("GL_OES_sample_variables") < text.find("extra"));
+  CHECK(text.find("extra") < text.find("float a"));
+  CHECK(reported_position(text, "float b") == "0:9");
+}
+
+TEST_CASE("a text without #version has none and counts as 450") {
+  const ShaderSource source = resolve_shader("t", "void main() {}\n", "t.frag");
+  CHECK(source.version == 450);
+  CHECK_FALSE(source.es);
+  CHECK(source.text.find("#version") == std::string::npos);
+}
+
+TEST_CASE("what cannot be included is named with file, line and places") {
+  const std::string missing = error_of([] { resolve_shader("t", "\n#include \"lost.glsl\"\n", "a/t.frag", {"b"}); });
+  CHECK(missing == "a/t.frag:2: cannot include \"lost.glsl\": not found in a, b, built-in shaders");
+  CHECK(error_of([] { resolve_shader("t", "#include LOST\n", "t.frag"); }).rfind("t.frag:1: ", 0) == 0);
+  CHECK(error_of([] { load_shader("/nonexistent.frag"); }).find("/nonexistent.frag") != std::string::npos);
+}
+
+TEST_CASE("a file that includes itself is included once") {
+  Folder folder;
+  const std::string main =
+      folder.write("loop.frag", "#include \"loop.frag\"\n#include \"./inner/../loop.frag\"\nfloat once;\n");
+  CHECK(count_of(load_shader(main).text, "float once") == 1);
+}
+
+TEST_CASE("driver logs are mapped back to files") {
+  ShaderSource source;
+  source.files = {"main.frag", "shaders/exact/dot.glsl"};
+  CHECK(map_driver_log(source, "1:12(5): error: `x' undeclared\n0:3(1): warning: y\n7:1(1): other\nlinking failed") ==
+        "shaders/exact/dot.glsl:12: error: `x' undeclared\nmain.frag:3: warning: y\n7:1(1): other\nlinking failed");
+  CHECK(map_driver_log(source, "1(40) : error C1008\n") == "shaders/exact/dot.glsl:40 : error C1008\n");
+}
+
+TEST_CASE("the hash depends on text, version and dialect") {
+  ShaderSource a;
+  a.text = "void main() {}";
+  ShaderSource b = a, c = a, d = a;
+  b.text += ' ';
+  c.version = 330;
+  d.es = true;
+  CHECK(source_hash(a).size() == 64);
+  CHECK(source_hash(a) != source_hash(b));
+  CHECK(source_hash(a) != source_hash(c));
+  CHECK(source_hash(a) != source_hash(d));
+}
+
+TEST_CASE("every file under shaders/ is in the binary") {
+  const auto names = builtin_shader_names();
+  const std::filesystem::path root = std::filesystem::path(TWINSHADE_SOURCE_DIR) / "shaders";
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
+    const std::string ending = entry.path().extension().string();
+    if (ending != ".glsl" && ending != ".frag") continue;
+    const std::string name = std::filesystem::relative(entry.path(), root).string();
+    CAPTURE(name);
+    CHECK(std::find(names.begin(), names.end(), name) != names.end());
+    std::ifstream file(entry.path(), std::ios::binary);
+    const std::string text((std::istreambuf_iterator<char>(file)), {});
+    CHECK(builtin_shader(name) == text);
+  }
+}

@@ -11,7 +11,7 @@ namespace twinshade {
 struct SourceLine {
   int number = 0;  // of its first physical line, from 1
   std::string
-      text;  // as written; contains '\n' where a backslash continues it or a comment inside a directive spans lines
+      text;  // as written; contains "\\\n" where a backslash continues it
   std::string directive;  // "include", "if" ...; empty where the line is none
   std::string arguments;  // after the directive's name, comments removed, trimmed
 };

@@ -1,0 +1,173 @@
+#include "golden/pictures.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/parallel.h"
+#include "base/portable_math.h"
+#include "golden/compare_frames.h"
+
+namespace twinshade {
+namespace {
+
+std::string ending_of(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending) c = (c >= 'A' && c <= 'Z') ? char(c - 'A' + 'a') : c;
+  return ending;
+}
+
+double tone_curve(double x, Tonemap tonemap) {
+  switch (tonemap) {
+    case Tonemap::none:
+      return x;
+    case Tonemap::reinhard:
+      return x / (1 + x);
+    case Tonemap::aces:
+      return (x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14);
+  }
+  return x;
+}
+
+double srgb_encoded(double linear) {
+  if (linear <= 0.0031308) return 12.92 * linear;
+  return 1.055 * portable::pow(linear, 1 / 2.4) - 0.055;
+}
+
+// Writes a y-down picture whose rows are those of a y-up buffer, last row first.
+template <class T>
+void write_rows(const std::string& path, std::uint32_t width, std::uint32_t height, int channels, const std::vector<T>& y_up,
+                const PictureOptions& options) {
+  constexpr bool is_float = sizeof(T) == 4;
+  write_file_with(path, [&](const std::string& temporary) {
+    const auto refuse = [&](const std::string& reason) {
+      std::string line = reason.substr(0, reason.find('\n'));
+      // The library names the temporary file; the user knows only the final one.
+      if (const auto at = line.find(temporary); at != std::string::npos) line.replace(at, temporary.size(), path);
+      throw UserError(path + ": cannot be written: " + (line.empty() ? "unknown reason" : line));
+    };
+    auto out = OIIO::ImageOutput::create(temporary);
+    if (!out) refuse(OIIO::geterror());
+    OIIO::ImageSpec spec(int(width), int(height), channels, is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
+    if (is_float)
+      spec.attribute("compression", "zip");
+    else
+      spec.attribute("oiio:ColorSpace", "sRGB");
+    for (const auto& [key, value] : options.notes) spec.attribute("twinshade:" + key, value);
+    if (!out->open(temporary, spec)) refuse(out->geterror());
+    const auto row = OIIO::stride_t(std::size_t(width) * channels * sizeof(T));
+    const T* last_row = y_up.data() + std::size_t(height - 1) * width * channels;
+    if (!out->write_image(is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8, last_row, OIIO::AutoStride, -row))
+      refuse(out->geterror());
+    if (!out->close()) refuse(out->geterror());
+  });
+}
+
+using Rgb = std::array<unsigned char, 3>;
+
+Rgb mixed(const Rgb& a, const Rgb& b, double t) {
+  Rgb result;
+  for (int c = 0; c < 3; ++c) result[c] = static_cast<unsigned char>(std::lround(a[c] + (b[c] - a[c]) * t));
+  return result;
+}
+
+// Blue at 1 ULP, red at 2^16, two octaves of colour between; by the distance's bit length.
+Rgb heat(std::uint64_t ulp) {
+  if (ulp == UINT64_MAX) return {255, 255, 255};
+  constexpr std::array<Rgb, 4> kRamp{{{60, 90, 255}, {40, 200, 80}, {250, 220, 40}, {255, 30, 20}}};
+  int octaves = 0;
+  while (octaves < 16 && (ulp >> (octaves + 1)) != 0) ++octaves;
+  const double place = octaves / 16.0 * 3;
+  const int segment = std::min(int(place), 2);
+  return mixed(kRamp[segment], kRamp[segment + 1], place - segment);
+}
+
+bool bits_differ(const float* a, const float* b, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool both_nan = std::isnan(a[i]) && std::isnan(b[i]);
+    if (!both_nan && (a[i] != b[i] || std::signbit(a[i]) != std::signbit(b[i]))) return true;
+  }
+  return false;
+}
+
+Rgb difference_color(const Frame& a, const Frame& b, std::size_t pixel) {
+  if (a.coverage[pixel] != b.coverage[pixel]) return {255, 0, 255};
+  if (a.primitive_id[pixel] != b.primitive_id[pixel]) return {255, 140, 0};
+  const float* color_a = &a.color[pixel * 4];
+  const float* color_b = &b.color[pixel * 4];
+  if (bits_differ(color_a, color_b, 4)) {
+    std::uint64_t worst = 1;  // zeros of different sign are 0 ULP apart and yet differ
+    for (int c = 0; c < 4; ++c) worst = std::max(worst, ulp_distance(color_a[c], color_b[c]));
+    return heat(worst);
+  }
+  if (bits_differ(&a.depth[pixel], &b.depth[pixel], 1)) return {0, 220, 220};
+  const std::size_t pixels = std::size_t(a.width) * a.height;
+  if (a.coverage[pixel] && a.attribute_names == b.attribute_names)
+    for (std::size_t c = 0; c < a.attribute_names.size(); ++c)
+      if (bits_differ(&a.attributes[c * pixels + pixel], &b.attributes[c * pixels + pixel], 1)) return {0, 220, 220};
+  const double luminance = 0.2126 * color_a[0] + 0.7152 * color_a[1] + 0.0722 * color_a[2];
+  const auto grey = static_cast<unsigned char>(display_value(luminance, 0, Tonemap::reinhard) / 3);
+  return {grey, grey, grey};
+}
+
+}  // namespace
+
+unsigned char display_value(double radiance, double exposure, Tonemap tonemap) {
+  if (!(radiance > 0)) return 0;
+  const double exposed = radiance * portable::exp2(exposure);
+  const double toned = std::isinf(exposed) ? 1.0 : std::min(tone_curve(exposed, tonemap), 1.0);
+  return static_cast<unsigned char>(std::floor(srgb_encoded(toned) * 255 + 0.5));
+}
+
+void require_picture_ending(const std::string& path) {
+  const std::string ending = ending_of(path);
+  if (ending != ".exr" && ending != ".hdr" && ending != ".png")
+    throw UserError(path + ": unknown kind of picture; end the name in .exr, .hdr or .png");
+}
+
+void write_picture(const std::string& path, const Frame& frame, const PictureOptions& options) {
+  require_picture_ending(path);
+  TWINSHADE_CHECK_EQ(frame.color.size(), std::size_t(frame.width) * frame.height * 4);
+  const std::string ending = ending_of(path);
+  const std::size_t pixels = std::size_t(frame.width) * frame.height;
+  if (ending == ".exr") {
+    write_rows(path, frame.width, frame.height, 4, frame.color, options);
+  } else if (ending == ".hdr") {
+    std::vector<float> rgb(pixels * 3);
+    for (std::size_t i = 0; i < pixels; ++i)
+      for (std::size_t c = 0; c < 3; ++c) {
+        const float v = frame.color[i * 4 + c];
+        rgb[i * 3 + c] = v > 0 ? v : 0.0f;
+      }
+    write_rows(path, frame.width, frame.height, 3, rgb, options);
+  } else {
+    std::vector<unsigned char> rgb(pixels * 3);
+    parallel_for(frame.height, [&](std::size_t y, int) {
+      for (std::size_t i = y * frame.width; i < (y + 1) * frame.width; ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+          rgb[i * 3 + c] = display_value(double(frame.color[i * 4 + c]), options.exposure, options.tonemap);
+    });
+    write_rows(path, frame.width, frame.height, 3, rgb, options);
+  }
+}
+
+void write_difference_picture(const std::string& path, const Frame& a, const Frame& b) {
+  TWINSHADE_CHECK_EQ(a.width, b.width);
+  TWINSHADE_CHECK_EQ(a.height, b.height);
+  if (ending_of(path) != ".png") throw UserError(path + ": a picture of differences must end in .png");
+  std::vector<unsigned char> rgb(std::size_t(a.width) * a.height * 3);
+  parallel_for(a.height, [&](std::size_t y, int) {
+    for (std::size_t i = y * a.width; i < (y + 1) * a.width; ++i) {
+      const Rgb color = difference_color(a, b, i);
+      std::copy(color.begin(), color.end(), rgb.begin() + std::ptrdiff_t(i * 3));
+    }
+  });
+  write_rows(path, a.width, a.height, 3, rgb, {});
+}
+
+}  // namespace twinshade

@@ -15,9 +15,9 @@ struct Difference {
   std::string layer;           // "coverage", "id", "depth", "attributes", "color"
   std::uint32_t x = 0, y = 0;  // pixel, y upwards
   std::uint32_t component = 0;
-  double a = 0, b = 0;         // values, exactly
+  double a = 0, b = 0;  // values, exactly
   std::uint32_t a_bits = 0, b_bits = 0;
-  std::uint64_t ulp = 0;       // distance in representable floats; UINT64_MAX where one is NaN or for ids and coverage
+  std::uint64_t ulp = 0;  // distance in representable floats; UINT64_MAX where one is NaN or for ids and coverage
   std::vector<std::pair<std::string, float>> inputs;  // the shader's inputs at the pixel, where captured
 };
 
@@ -25,11 +25,12 @@ struct Comparison {
   std::uint64_t shaded_pixels = 0;  // covered in a or b
   std::uint64_t coverage_differs = 0, id_differs = 0, depth_differs = 0, attributes_differ = 0;
   std::uint64_t pixels_differ = 0;  // pixels in which any of the compared bits differ
-  std::uint64_t denormal_only = 0;  // of those, pixels where every difference has a denormal on one side and zero on the other
-  std::uint64_t max_ulp = 0;        // of colour, over pixels covered with the same id in both; NaN is one class
+  std::uint64_t denormal_only =
+      0;  // of those, pixels where every difference has a denormal on one side and zero on the other
+  std::uint64_t max_ulp = 0;  // of colour, over pixels covered with the same id in both; NaN is one class
   std::vector<std::uint64_t> ulp_histogram;  // [0]: equal values, [k]: distance in [2^(k-1), 2^k)
-  std::optional<Difference> first;  // of the first layer that differs, in reading order from the top left
-  std::vector<Difference> worst;    // up to 8 of that layer, largest ULP first
+  std::optional<Difference> first;           // of the first layer that differs, in reading order from the top left
+  std::vector<Difference> worst;             // up to 8 of that layer, largest ULP first
   bool equal() const { return pixels_differ == 0; }
 };
 

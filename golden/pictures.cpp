@@ -41,8 +41,8 @@ double srgb_encoded(double linear) {
 
 // Writes a y-down picture whose rows are those of a y-up buffer, last row first.
 template <class T>
-void write_rows(const std::string& path, std::uint32_t width, std::uint32_t height, int channels, const std::vector<T>& y_up,
-                const PictureOptions& options) {
+void write_rows(const std::string& path, std::uint32_t width, std::uint32_t height, int channels,
+                const std::vector<T>& y_up, const PictureOptions& options) {
   constexpr bool is_float = sizeof(T) == 4;
   write_file_with(path, [&](const std::string& temporary) {
     const auto refuse = [&](const std::string& reason) {

@@ -1,4 +1,5 @@
-// Frames as pictures: EXR with every bit of the colour, HDR and PNG to look at, and pictures of where two frames differ.
+// Frames as pictures: EXR with every bit of the colour, HDR and PNG to look at, and pictures of where two frames
+// differ.
 #pragma once
 
 #include <string>
@@ -17,8 +18,8 @@ enum class Tonemap {
 };
 
 struct PictureOptions {
-  double exposure = 0;  // stops: radiance is multiplied by 2^exposure. PNG only.
-  Tonemap tonemap = Tonemap::reinhard;  // PNG only
+  double exposure = 0;                                     // stops: radiance is multiplied by 2^exposure. PNG only.
+  Tonemap tonemap = Tonemap::reinhard;                     // PNG only
   std::vector<std::pair<std::string, std::string>> notes;  // stored as text attributes, where the format has them
 };
 
@@ -30,7 +31,8 @@ void require_picture_ending(const std::string& path);
 void write_picture(const std::string& path, const Frame& frame, const PictureOptions& options = {});
 
 // Where b differs from a, as PNG. Equal pixels: a in dim grey. Different colour: blue (1 ULP) over green and yellow to
-// red (2^16 ULP or more), white where one side is NaN. Depth or attributes only: cyan. Primitive id: orange. Coverage: magenta.
+// red (2^16 ULP or more), white where one side is NaN. Depth or attributes only: cyan. Primitive id: orange. Coverage:
+// magenta.
 void write_difference_picture(const std::string& path, const Frame& a, const Frame& b);
 
 // One channel of radiance to 8 bits: exposure, tone curve, sRGB transfer (IEC 61966-2-1), nearest. NaN is 0.

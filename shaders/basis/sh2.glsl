@@ -1,0 +1,17 @@
+// Spherical harmonics of order 2 (l <= 1), in tangent space.
+// Includer defines COEF(i): coefficient i as vec3. n: unit normal.
+#include "basis/sh_functions.glsl"
+
+const int BASIS_COUNT = 4;
+
+float basis_value(int i, vec3 n) {
+  return i == 0 ? sh_0() : i == 1 ? sh_1(n) : i == 2 ? sh_2(n) : sh_3(n);
+}
+
+vec3 basis_irradiance(vec3 n) {
+  precise vec3 irradiance = COEF(0) * sh_0();
+  irradiance += COEF(1) * sh_1(n);
+  irradiance += COEF(2) * sh_2(n);
+  irradiance += COEF(3) * sh_3(n);
+  return irradiance;
+}

@@ -1,0 +1,38 @@
+// Which instruction set this translation unit is built for, and the namespace that keeps its code apart: inline
+// functions of an AVX-512 object must never win at link time over those of the baseline, so everything in the runtime
+// and in generated code lives in an inline namespace named after the instruction set.
+#pragma once
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#elif defined(__aarch64__)
+#include <arm_neon.h>
+#endif
+
+#define TWINSHADE_JOIN_(a, b) a##b
+#define TWINSHADE_JOIN(a, b) TWINSHADE_JOIN_(a, b)
+
+// The build defines TWINSHADE_ISA for objects made by twinshade_isa_objects. Elsewhere (no instruction set flags given)
+// the runtime falls back to what the compiler's default target has, in a namespace of its own.
+#if defined(TWINSHADE_ISA)
+#define TWINSHADE_ISA_NAMESPACE TWINSHADE_JOIN(isa_, TWINSHADE_ISA)
+#else
+#define TWINSHADE_ISA_NAMESPACE isa_of_compiler_default
+#endif
+
+#define TWINSHADE_INLINE __attribute__((always_inline)) inline
+
+namespace twinshade {
+inline namespace TWINSHADE_ISA_NAMESPACE {
+
+// 32-bit lanes in one register. Wider values are pairs of halves.
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__) && defined(__AVX512BW__)
+inline constexpr int kNativeLanes = 16;
+#elif defined(__AVX2__)
+inline constexpr int kNativeLanes = 8;
+#else
+inline constexpr int kNativeLanes = 4;
+#endif
+
+}  // namespace TWINSHADE_ISA_NAMESPACE
+}  // namespace twinshade

@@ -1,0 +1,223 @@
+// What GCC's vector extensions do not give: square root, rounding, any/all, conversions, gathers and permutes of one
+// register of 4, 8 or 16 32-bit lanes. x86-64 from v2 to v4 and NEON; elsewhere one lane at a time.
+#pragma once
+
+#include <utility>
+
+#include "cpu_shaders/runtime/number.h"
+
+namespace twinshade {
+inline namespace TWINSHADE_ISA_NAMESPACE {
+
+template <class E, int W>
+struct RegisterOf {
+  typedef E type __attribute__((vector_size(W * sizeof(E))));
+};
+template <class E, int W>
+using Register = typename RegisterOf<E, W>::type;
+
+using Float4 = Register<float, 4>;
+using Int4 = Register<std::int32_t, 4>;
+using Float8 = Register<float, 8>;
+using Int8 = Register<std::int32_t, 8>;
+using Float16 = Register<float, 16>;
+using Int16 = Register<std::int32_t, 16>;
+
+namespace registers {
+
+template <class E, int W, std::size_t... k>
+TWINSHADE_INLINE Register<E, W> splat(E x, std::index_sequence<k...>) {
+  return Register<E, W>{(static_cast<void>(k), x)...};
+}
+template <class E, int W>
+TWINSHADE_INLINE Register<E, W> splat(E x) {
+  return splat<E, W>(x, std::make_index_sequence<W>());
+}
+
+// Loops over lanes for targets without the instruction.
+template <class V, class F>
+TWINSHADE_INLINE V by_lane(V x, F f) {
+  V r;
+  for (std::size_t i = 0; i < sizeof(V) / 4; ++i) r[i] = f(x[i]);
+  return r;
+}
+
+// --- square root and rounding
+
+TWINSHADE_INLINE Float4 sqrt(Float4 x) {
+#if defined(__SSE2__)
+  return (Float4)_mm_sqrt_ps((__m128)x);
+#elif defined(__aarch64__)
+  return (Float4)vsqrtq_f32((float32x4_t)x);
+#else
+  return by_lane(x, number::square_root<float>);
+#endif
+}
+TWINSHADE_INLINE Float4 floor(Float4 x) {
+#if defined(__SSE4_1__)
+  return (Float4)_mm_floor_ps((__m128)x);
+#elif defined(__aarch64__)
+  return (Float4)vrndmq_f32((float32x4_t)x);
+#else
+  return by_lane(x, number::round_down<float>);
+#endif
+}
+TWINSHADE_INLINE Float4 ceil(Float4 x) {
+#if defined(__SSE4_1__)
+  return (Float4)_mm_ceil_ps((__m128)x);
+#elif defined(__aarch64__)
+  return (Float4)vrndpq_f32((float32x4_t)x);
+#else
+  return by_lane(x, number::round_up<float>);
+#endif
+}
+TWINSHADE_INLINE Float4 trunc(Float4 x) {
+#if defined(__SSE4_1__)
+  return (Float4)_mm_round_ps((__m128)x, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
+#elif defined(__aarch64__)
+  return (Float4)vrndq_f32((float32x4_t)x);
+#else
+  return by_lane(x, number::round_to_zero<float>);
+#endif
+}
+TWINSHADE_INLINE Float4 round_even(Float4 x) {
+#if defined(__SSE4_1__)
+  return (Float4)_mm_round_ps((__m128)x, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+#elif defined(__aarch64__)
+  return (Float4)vrndnq_f32((float32x4_t)x);
+#else
+  return by_lane(x, number::round_to_even<float>);
+#endif
+}
+
+// --- float to int: towards zero, clamped, NaN gives 0 (what NEON does by itself)
+
+TWINSHADE_INLINE Int4 to_int(Float4 x) {
+#if defined(__SSE2__)
+  // Out of range and NaN give INT_MIN; above, flip to INT_MAX.
+  return ((Int4)_mm_cvttps_epi32((__m128)x) ^ (x >= splat<float, 4>(2147483648.0f))) & (x == x);
+#elif defined(__aarch64__)
+  return (Int4)vcvtq_s32_f32((float32x4_t)x);
+#else
+  Int4 r;
+  for (int i = 0; i < 4; ++i) r[i] = number::convert<std::int32_t>(x[i]);
+  return r;
+#endif
+}
+
+// --- masks (lanes 0 or -1)
+
+TWINSHADE_INLINE bool any(Int4 m) {
+#if defined(__SSE2__)
+  return _mm_movemask_ps((__m128)m) != 0;
+#elif defined(__aarch64__)
+  return vmaxvq_u32((uint32x4_t)m) != 0;
+#else
+  return (m[0] | m[1] | m[2] | m[3]) != 0;
+#endif
+}
+TWINSHADE_INLINE bool all(Int4 m) {
+#if defined(__SSE2__)
+  return _mm_movemask_ps((__m128)m) == 15;
+#elif defined(__aarch64__)
+  return vminvq_u32((uint32x4_t)m) != 0;
+#else
+  return (m[0] & m[1] & m[2] & m[3]) != 0;
+#endif
+}
+// Bit i is lane i.
+TWINSHADE_INLINE std::uint32_t mask_bits(Int4 m) {
+#if defined(__SSE2__)
+  return static_cast<std::uint32_t>(_mm_movemask_ps((__m128)m));
+#else
+  return (m[0] & 1u) | (m[1] & 2u) | (m[2] & 4u) | (m[3] & 8u);
+#endif
+}
+
+#if defined(__AVX2__)
+TWINSHADE_INLINE Float8 sqrt(Float8 x) { return (Float8)_mm256_sqrt_ps((__m256)x); }
+TWINSHADE_INLINE Float8 floor(Float8 x) { return (Float8)_mm256_floor_ps((__m256)x); }
+TWINSHADE_INLINE Float8 ceil(Float8 x) { return (Float8)_mm256_ceil_ps((__m256)x); }
+TWINSHADE_INLINE Float8 trunc(Float8 x) {
+  return (Float8)_mm256_round_ps((__m256)x, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
+}
+TWINSHADE_INLINE Float8 round_even(Float8 x) {
+  return (Float8)_mm256_round_ps((__m256)x, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+}
+TWINSHADE_INLINE Int8 to_int(Float8 x) {
+  return ((Int8)_mm256_cvttps_epi32((__m256)x) ^ (x >= splat<float, 8>(2147483648.0f))) & (x == x);
+}
+TWINSHADE_INLINE bool any(Int8 m) { return _mm256_movemask_ps((__m256)m) != 0; }
+TWINSHADE_INLINE bool all(Int8 m) { return _mm256_movemask_ps((__m256)m) == 255; }
+TWINSHADE_INLINE std::uint32_t mask_bits(Int8 m) { return static_cast<std::uint32_t>(_mm256_movemask_ps((__m256)m)); }
+#endif
+
+// The maskz forms with all lanes set: g++ 12 warns of an uninitialised value inside its own header for the plain ones.
+#if defined(__AVX512F__)
+TWINSHADE_INLINE Float16 sqrt(Float16 x) { return (Float16)_mm512_maskz_sqrt_ps(0xffff, (__m512)x); }
+TWINSHADE_INLINE Float16 floor(Float16 x) {
+  return (Float16)_mm512_maskz_roundscale_ps(0xffff, (__m512)x, _MM_FROUND_TO_NEG_INF | _MM_FROUND_NO_EXC);
+}
+TWINSHADE_INLINE Float16 ceil(Float16 x) {
+  return (Float16)_mm512_maskz_roundscale_ps(0xffff, (__m512)x, _MM_FROUND_TO_POS_INF | _MM_FROUND_NO_EXC);
+}
+TWINSHADE_INLINE Float16 trunc(Float16 x) {
+  return (Float16)_mm512_maskz_roundscale_ps(0xffff, (__m512)x, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
+}
+TWINSHADE_INLINE Float16 round_even(Float16 x) {
+  return (Float16)_mm512_maskz_roundscale_ps(0xffff, (__m512)x, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+}
+TWINSHADE_INLINE Int16 to_int(Float16 x) {
+  return ((Int16)_mm512_maskz_cvttps_epi32(0xffff, (__m512)x) ^ (x >= splat<float, 16>(2147483648.0f))) & (x == x);
+}
+TWINSHADE_INLINE std::uint32_t mask_bits(Int16 m) { return _mm512_movepi32_mask((__m512i)m); }
+TWINSHADE_INLINE bool any(Int16 m) { return mask_bits(m) != 0; }
+TWINSHADE_INLINE bool all(Int16 m) { return mask_bits(m) == 0xffffu; }
+#endif
+
+// --- memory by index: base[index] in each lane; indices are in range
+
+template <class E, int W>
+TWINSHADE_INLINE Register<E, W> gather(const E* base, Register<std::int32_t, W> index) {
+#if defined(__AVX512F__)
+  if constexpr (W == 16)
+    return (Register<E, W>)_mm512_mask_i32gather_epi32(_mm512_setzero_si512(), 0xffff, (__m512i)index, base, 4);
+#endif
+#if defined(__AVX2__)
+  if constexpr (W == 8)
+    return (Register<E, W>)_mm256_i32gather_epi32(reinterpret_cast<const int*>(base), (__m256i)index, 4);
+#endif
+  Register<E, W> r;
+  for (int i = 0; i < W; ++i) r[i] = base[index[i]];
+  return r;
+}
+
+// table[index & 15] of a table held in registers: 16 entries, in order. False at compile time where there is no permute
+// that beats loading (W, target).
+template <int W>
+inline constexpr bool has_permute16 =
+#if defined(__AVX512F__)
+    W == 16 || W == 8;
+#elif defined(__AVX2__)
+    W == 8;
+#else
+    false;
+#endif
+
+#if defined(__AVX2__)
+TWINSHADE_INLINE Int8 permute8(Int8 table, Int8 index) {  // table[index & 7]
+  return (Int8)_mm256_permutevar8x32_epi32((__m256i)table, (__m256i)index);
+}
+TWINSHADE_INLINE Int8 permute16(Int8 low, Int8 high, Int8 index) {
+  return (index & 8) != 0 ? permute8(high, index) : permute8(low, index);
+}
+#endif
+#if defined(__AVX512F__)
+TWINSHADE_INLINE Int16 permute16(Int16 table, Int16 index) {
+  return (Int16)_mm512_maskz_permutexvar_epi32(0xffff, (__m512i)index, (__m512i)table);
+}
+#endif
+
+}  // namespace registers
+}  // namespace TWINSHADE_ISA_NAMESPACE
+}  // namespace twinshade

@@ -34,6 +34,7 @@ ShaderSource technique_source(const TechniqueInfo& technique, CoefficientStorage
   std::string text = vertex ? "#define TWINSHADE_VERTEX_COEFFICIENTS 1\n" : "";
   if (technique.is_basis) {
     text += "#define COEFFICIENTS coefficients_" + name + "\n";
+    text += "#define COEFFICIENT_COUNT " + std::to_string(technique.count) + "\n";
     text += "#include \"technique/surface.glsl\"\n";
     text += "#include \"technique/coefficients_" + std::string(vertex ? "vertex" : "lightmap") + ".glsl\"\n";
     text += "#include \"basis/" + file + "\"\n";

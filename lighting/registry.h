@@ -28,6 +28,7 @@ std::span<const TechniqueInfo> techniques();
 const TechniqueInfo& find_technique(std::string_view name);
 
 // The whole fragment shader: for a basis, surface inputs + coefficient storage + basis file + main. Name: "h4" or "h4_vertex".
+// Coefficients of basis b: texture "coefficients_b" (lightmap; layer = coefficient) or attributes "coefficients_b[i]" (vertex).
 ShaderSource technique_source(const TechniqueInfo& technique, CoefficientStorage storage);
 
 }  // namespace twinshade

@@ -9,8 +9,10 @@ namespace twinshade {
 namespace {
 
 constexpr TechniqueInfo kTechniques[] = {
-#define BASIS(name, file, domain, count, linear, source) {#name, #file, true, Domain::domain, count, linear, source},
-#define TECHNIQUE(name, file, source) {#name, #file, false, Domain::hemisphere, 0, false, source},
+#define BASIS(name, file, domain, count, linear, projection, source) \
+  {#name, #file, true, Domain::domain, count, linear, Projection::projection, source},
+#define TECHNIQUE(name, file, source) \
+  {#name, #file, false, Domain::hemisphere, 0, false, Projection::least_squares, source},
 #include "lighting/registry.def"
 #undef BASIS
 #undef TECHNIQUE

@@ -10,6 +10,8 @@
 namespace twinshade {
 
 enum class Domain { hemisphere, sphere };
+// How irradiance becomes coefficients of a linear basis: see registry.def.
+enum class Projection { least_squares, truncation, value_at_normal };
 // Where a technique's shader reads its coefficients: a sampler2DArray over lightmap UVs, or vertex attributes.
 enum class CoefficientStorage { lightmap, vertex };
 
@@ -20,6 +22,7 @@ struct TechniqueInfo {
   Domain domain;            // bases
   int count;                // coefficients per channel; 0 where not a basis of its own
   bool linear;              // bases
+  Projection projection;    // linear bases
   std::string_view source;
 };
 

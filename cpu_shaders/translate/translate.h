@@ -1,0 +1,65 @@
+// GLSL to C++: one fragment shader becomes one C++ file in the form of docs/generated-code.md.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cpu_shaders/runtime/shader_abi.h"
+#include "cpu_shaders/shader_source.h"
+
+namespace twinshade {
+
+struct TranslateOptions {
+  std::string identifier;  // for symbols; empty: made from the source's name
+  // Readable: each GLSL line as a comment above its C++. Otherwise #line directives, so that debuggers step through the
+  // GLSL.
+  bool readable = false;
+};
+
+// Reflection with its own storage; ShaderVariable and the others (shader_abi.h) are views of the same facts.
+struct ReflectedVariable {
+  std::string name;
+  Scalar scalar = Scalar::f32;
+  std::uint8_t columns = 1, rows = 1;
+  std::uint32_t array_length = 0;
+  bool flat = false, noperspective = false;
+  std::int32_t location = -1;
+  std::uint32_t first_component = 0;
+};
+struct ReflectedUniform {
+  std::string name;
+  Scalar scalar = Scalar::f32;
+  std::uint8_t columns = 1, rows = 1;
+  std::uint32_t array_length = 0, offset = 0, array_stride = 0, matrix_stride = 0;
+};
+struct ReflectedResource {
+  std::string name;
+  ResourceKind kind = ResourceKind::sampler_2d;
+  std::uint32_t slot = 0, minimum_size = 0;
+  bool read_only = true;
+};
+
+struct Reflection {
+  std::vector<ReflectedVariable> inputs, outputs;
+  std::vector<ReflectedUniform> uniforms;
+  std::vector<ReflectedResource> resources;
+  std::uint32_t input_components = 0, output_components = 0, uniform_bytes = 0, texture_count = 0, buffer_count = 0;
+  bool discards = false, writes_depth = false, has_side_effects = false, uses_derivatives = false,
+       uses_frag_coord = false, uses_front_facing = false, uses_primitive_id = false;
+  std::string no_float64_reason;  // empty: it can run in double
+};
+
+struct Translation {
+  std::string cpp;
+  std::string identifier;
+  Reflection reflection;
+};
+
+// UserError, one line: glslang's own message with the author's file and line, or "file:line: construct X is not
+// supported: remedy".
+Translation translate(const ShaderSource& source, const TranslateOptions& options = {});
+
+// A C identifier from any name.
+std::string identifier_from(const std::string& name);
+
+}  // namespace twinshade

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#define SPV_ENABLE_UTILITY_CODE  // HasResultAndType
 #include <glslang/SPIRV/spirv.hpp>
 
 namespace twinshade::spirv {

@@ -1,0 +1,86 @@
+// Breadth first: each round fills every empty cell beside a filled one with the mean of those of its neighbours that were filled
+// before the round.
+#include "lighting/fill.h"
+
+#include <algorithm>
+
+namespace twinshade {
+
+template <class Neighbours>
+FillPlan FillPlan::grow(const std::vector<std::uint8_t>& known, const Receivers& receivers, int gutter,
+                        const Neighbours& neighbours) {
+  FillPlan plan;
+  std::vector<std::uint8_t> state(known);  // 0 empty, 1 filled, 2 waiting for this round
+  std::vector<std::uint32_t> frontier, next;
+  for (std::uint32_t cell = 0; cell < known.size(); ++cell)
+    if (known[cell]) frontier.push_back(cell);
+
+  for (int round = 0; !frontier.empty(); ++round) {
+    next.clear();
+    for (const std::uint32_t cell : frontier)
+      neighbours(cell, [&](std::uint32_t other) {
+        if (state[other] != 0 || (round >= gutter && receivers.receiver_of_cell[other] == kNoReceiver)) return;
+        state[other] = 2;
+        next.push_back(other);
+      });
+    std::sort(next.begin(), next.end());
+    for (const std::uint32_t cell : next) {
+      const std::uint32_t first = std::uint32_t(plan.sources_.size());
+      neighbours(cell, [&](std::uint32_t other) {
+        if (state[other] == 1) plan.sources_.push_back(other);
+      });
+      plan.steps_.push_back({cell, first, std::uint32_t(plan.sources_.size()) - first});
+    }
+    for (const std::uint32_t cell : next) state[cell] = 1;
+    frontier.swap(next);
+  }
+  return plan;
+}
+
+FillPlan FillPlan::lightmap(const std::vector<std::uint8_t>& known, const Receivers& receivers, int gutter) {
+  const std::int64_t width = receivers.width, height = receivers.height;
+  return grow(known, receivers, gutter, [=](std::uint32_t cell, const auto& visit) {
+    const std::int64_t x = cell % width, y = cell / width;
+    for (std::int64_t j = std::max<std::int64_t>(y - 1, 0); j <= std::min(y + 1, height - 1); ++j)
+      for (std::int64_t i = std::max<std::int64_t>(x - 1, 0); i <= std::min(x + 1, width - 1); ++i)
+        if (i != x || j != y) visit(std::uint32_t(j * width + i));
+  });
+}
+
+FillPlan FillPlan::vertices(const std::vector<std::uint8_t>& known, const Receivers& receivers, const Scene& scene) {
+  // Neighbours by vertex, each once, ascending
+  std::vector<std::vector<std::uint32_t>> adjacent(receivers.width);
+  for (std::size_t corner = 0; corner < scene.indices.size(); ++corner) {
+    const std::size_t base = corner - corner % 3;
+    for (std::size_t k = 1; k < 3; ++k)
+      adjacent[scene.indices[corner]].push_back(scene.indices[base + (corner % 3 + k) % 3]);
+  }
+  for (std::vector<std::uint32_t>& list : adjacent) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+  return grow(known, receivers, 0, [&](std::uint32_t cell, const auto& visit) {
+    for (const std::uint32_t other : adjacent[cell])
+      if (other != cell) visit(other);
+  });
+}
+
+void FillPlan::apply(std::span<float> cells, std::size_t stride) const {
+  for (const Step& step : steps_) {
+    for (std::size_t k = 0; k < stride; ++k) {
+      double sum = 0;
+      for (std::uint32_t s = 0; s < step.source_count; ++s)
+        sum += cells[sources_[step.first_source + s] * stride + k];
+      cells[step.cell * stride + k] = float(sum / step.source_count);
+    }
+  }
+}
+
+std::vector<std::uint32_t> FillPlan::filled() const {
+  std::vector<std::uint32_t> cells;
+  for (const Step& step : steps_) cells.push_back(step.cell);
+  std::sort(cells.begin(), cells.end());
+  return cells;
+}
+
+}  // namespace twinshade

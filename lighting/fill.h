@@ -1,0 +1,40 @@
+// Cells without light of their own take it from their neighbours: texels inside geometry, and the gutters around charts that
+// bilinear filtering reads.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lighting/receivers.h"
+
+namespace twinshade {
+
+class FillPlan {
+ public:
+  // known: 1 where a cell has light of its own, else 0; by cell.
+  // wanted cells are filled however far away the light is, if any known cell is connected; others up to `gutter` steps.
+  static FillPlan lightmap(const std::vector<std::uint8_t>& known, const Receivers& receivers, int gutter);
+  // Along the edges of triangles.
+  static FillPlan vertices(const std::vector<std::uint8_t>& known, const Receivers& receivers, const Scene& scene);
+
+  // In place: `cells` has `stride` consecutive values a cell.
+  void apply(std::span<float> cells, std::size_t stride) const;
+
+  // Was the cell filled by this plan?
+  std::vector<std::uint32_t> filled() const;
+
+ private:
+  struct Step {
+    std::uint32_t cell;
+    std::uint32_t first_source, source_count;
+  };
+  std::vector<Step> steps_;  // in order: a source is known or filled by an earlier step
+  std::vector<std::uint32_t> sources_;
+
+  template <class Neighbours>
+  static FillPlan grow(const std::vector<std::uint8_t>& known, const Receivers& receivers, int gutter,
+                       const Neighbours& neighbours);
+};
+
+}  // namespace twinshade

@@ -1,0 +1,48 @@
+// Rays against a scene's triangles, the same answer on every machine: Embree only proposes candidates (user geometry with
+// padded bounds), a watertight test in double decides.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+
+#include "scenes/scene.h"
+
+namespace twinshade {
+
+inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
+
+struct RayHit {
+  std::uint32_t triangle = kNoTriangle;
+  double t = 0;     // in lengths of the direction
+  double b1 = 0, b2 = 0;  // barycentric weights of the second and third corner
+  bool front = false;     // the side its vertex normals point to
+};
+
+// Triangles that have no area or a corner that is not finite are never hit. All functions may be called by many threads.
+class RayScene {
+ public:
+  // The instruction set that Embree uses can be chosen by the environment variable TWINSHADE_EMBREE_ISA (sse2, sse4.2, avx,
+  // avx2, avx512). UserError where Embree refuses it.
+  explicit RayScene(const Scene& scene);
+  ~RayScene();
+  RayScene(const RayScene&) = delete;
+  RayScene& operator=(const RayScene&) = delete;
+
+  // Closest hit with t > 0; among equal t the lowest triangle. `skip` is never hit. direction: not zero.
+  RayHit closest(const glm::vec3& origin, const glm::vec3& direction, std::uint32_t skip = kNoTriangle) const;
+  // Is anything hit at t > 0?
+  bool occluded(const glm::vec3& origin, const glm::vec3& direction, std::uint32_t skip = kNoTriangle) const;
+
+  // Unit normal of a triangle's plane on its front side; zero for triangles that are never hit.
+  glm::dvec3 geometric_normal(std::uint32_t triangle) const;
+  // Length of the diagonal of the bounding box of all finite triangles; 0 where there are none.
+  double diagonal() const;
+
+  struct Impl;
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace twinshade

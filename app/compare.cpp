@@ -1,0 +1,321 @@
+// compare: the same bundle and the same shader on several machines, bit by bit.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "app/machines.h"
+#include "app/mismatch.h"
+#include "app/output.h"
+#include "app/provenance.h"
+#include "app/subject.h"
+#include "app/table.h"
+#include "base/error.h"
+#include "golden/compare_frames.h"
+#include "golden/pictures.h"
+
+namespace twinshade {
+namespace {
+
+struct CompareVerb {
+  CommonOptions common;
+  SubjectOptions subject;
+  ShadingOptions shading;
+  CpuOptions cpu;
+  PictureOptions picture;
+  AttributeMode attributes = AttributeMode::exact;
+  std::vector<std::string> backends{"cpu", "egl", "osmesa"};
+  std::string folder;
+  bool host_fma = true;
+  double time_limit_seconds = DrawOptions().time_limit_seconds;
+
+  int run() const;
+};
+
+// One line of the table: shader `technique` on b, held to the reference a.
+struct Row {
+  std::string technique, a, b;
+  std::string failure;  // why there is no comparison
+  Comparison comparison;
+  std::string hash_a, hash_b;
+  Json first_difference;
+  std::string description;
+};
+
+class CompareRun {
+ public:
+  CompareRun(const CompareVerb& verb, const Output& output)
+      : verb_(verb),
+        output_(output),
+        provenance_(verb.common),
+        subject_(load_subject(verb.subject, verb.shading, verb.common, output)),
+        machines_(verb.cpu, verb.host_fma) {
+    provenance_.add(subject_);
+  }
+
+  int run() {
+    for (const Shading& shader : load_shadings(verb_.shading, subject_)) compare(shader);
+    if (rows_.empty()) {
+      std::string reasons;
+      for (const auto& [technique, reason] : skipped_)
+        reasons += (reasons.empty() ? "" : "; ") + technique + ": " + reason;
+      throw UserError(verb_.subject.scene + ": no technique can be drawn: " + reasons);
+    }
+    report();
+    return exit_code();
+  }
+
+ private:
+  DrawOptions draw_options(bool capture) const {
+    DrawOptions options;
+    options.attributes = verb_.attributes;
+    options.capture_attributes = capture;
+    options.time_limit_seconds = verb_.time_limit_seconds;
+    return options;
+  }
+
+  Frame draw(const std::string& backend, const Shading& shader, bool capture, const Frame* cpu_frame = nullptr) {
+    output_.progress(fmt::format("drawing {} on {}", shader.technique, backend));
+    Frame frame = machines_.draw(backend, subject_.bundle, shader.source, draw_options(capture), cpu_frame);
+    provenance_.add(backend, frame);
+    return frame;
+  }
+
+  void compare(const Shading& shader) {
+    provenance_.add(shader);
+    const std::string& a = verb_.backends.front();
+    const bool native = verb_.attributes == AttributeMode::native;
+    const bool on_softpipe =
+        std::find(verb_.backends.begin(), verb_.backends.end(), "softpipe") != verb_.backends.end();
+
+    Frame reference;
+    try {
+      reference = draw(a, shader, native || (on_softpipe && a == "cpu"));
+    } catch (const UserError& error) {
+      if (!wants_all(verb_.shading)) throw;
+      skipped_.emplace_back(shader.technique, error.what());
+      return;
+    } catch (const BackendError& error) {
+      for (std::size_t i = 1; i < verb_.backends.size(); ++i) fail(shader, a, verb_.backends[i], error.what());
+      return;
+    }
+    write_pictures(shader, a, reference);
+    for (std::size_t i = 1; i < verb_.backends.size(); ++i) {
+      const std::string& b = verb_.backends[i];
+      try {
+        if (b == "softpipe")
+          compare_on_softpipe(shader, a, reference);
+        else
+          compare_with(shader, a, reference, b, draw(b, shader, native), CompareScope::all);
+      } catch (const std::runtime_error& error) {  // UserError, BackendError: the others go on
+        fail(shader, a, b, error.what());
+      }
+    }
+  }
+
+  // softpipe shades what the CPU covered, from the CPU's attributes, so it is the CPU that it is compared with.
+  void compare_on_softpipe(const Shading& shader, const std::string& a, const Frame& reference) {
+    if (machines_.uses_derivatives(shader.source)) {
+      skipped_.emplace_back(shader.technique,
+                            "softpipe: the shader takes derivatives, whose neighbours there are of other triangles");
+      return;
+    }
+    const Frame drawn = a == "cpu" ? Frame() : draw("cpu", shader, true);
+    const Frame& cpu_frame = a == "cpu" ? reference : drawn;
+    compare_with(shader, "cpu", cpu_frame, "softpipe", draw("softpipe", shader, false, &cpu_frame),
+                 CompareScope::shaded_by_a);
+  }
+
+  void compare_with(const Shading& shader, const std::string& a, const Frame& frame_a, const std::string& b,
+                    const Frame& frame_b, CompareScope scope) {
+    Row row;
+    row.technique = shader.technique, row.a = a, row.b = b;
+    row.comparison = compare_frames(frame_a, frame_b, scope);
+    row.hash_a = frame_hash(frame_a), row.hash_b = frame_hash(frame_b);
+    write_pictures(shader, b, frame_b);
+    if (!row.comparison.equal()) {
+      if (!verb_.folder.empty() && scope == CompareScope::all)
+        write_difference_picture(picture_path(shader, a + "-" + b + ".difference"), frame_a, frame_b);
+      explain(shader, row, frame_a, frame_b, scope);
+    }
+    rows_.push_back(std::move(row));
+  }
+
+  // Draws again with the attributes captured, so that the first layer can be told and the inputs named. The counts of
+  // the row stay those of the frames as first drawn, but for the attributes, which those did not have.
+  void explain(const Shading& shader, Row& row, const Frame& frame_a, const Frame& frame_b, CompareScope scope) {
+    const bool captured_b = !frame_b.attribute_names.empty() || scope == CompareScope::shaded_by_a;
+    Frame again_a, again_b;
+    const Frame* a = &frame_a;
+    const Frame* b = &frame_b;
+    try {
+      if (frame_a.attribute_names.empty()) a = &(again_a = draw(row.a, shader, true));
+      if (!captured_b) b = &(again_b = draw(row.b, shader, true));
+    } catch (const BackendError& error) {
+      output_.note(fmt::format("{}: inputs of the shader are not known: {}", shader.technique, error.what()));
+    }
+    Comparison again = compare_frames(*a, *b, scope);
+    if (!again.first) {  // capturing made the difference vanish: the inputs are still those of the pixel
+      again = compare_frames(*a, frame_b, scope);
+      if (!again.first) again = row.comparison;
+    }
+    row.comparison.attributes_differ = again.attributes_differ;
+    row.first_difference = difference_json(again.first, *a);
+    row.description = describe_mismatch(row.technique, row.a, row.b, again, *a);
+  }
+
+  void fail(const Shading& shader, const std::string& a, const std::string& b, const std::string& reason) {
+    Row row;
+    row.technique = shader.technique, row.a = a, row.b = b;
+    row.failure = reason;
+    rows_.push_back(std::move(row));
+  }
+
+  std::string picture_path(const Shading& shader, const std::string& what) const {
+    return (std::filesystem::path(verb_.folder) / (shader.source.name + "." + what + ".png")).string();
+  }
+
+  void write_pictures(const Shading& shader, const std::string& backend, const Frame& frame) {
+    if (!verb_.folder.empty() && backend != "softpipe")
+      write_picture(picture_path(shader, backend), frame, verb_.picture);
+  }
+
+  // softpipe keeps denormals where the dialect flushes them: known, counted, no mismatch.
+  static bool only_softpipe_denormals(const Row& row) {
+    return row.b == "softpipe" && row.comparison.pixels_differ == row.comparison.denormal_only;
+  }
+
+  bool is_mismatch(const Row& row) const {
+    return verb_.attributes == AttributeMode::exact && row.failure.empty() && !row.comparison.equal() &&
+           !only_softpipe_denormals(row);
+  }
+
+  std::string verdict(const Row& row) const {
+    if (!row.failure.empty()) return "failed";
+    if (row.comparison.equal()) return "equal";
+    if (is_mismatch(row)) return "DIFFERS";
+    return verb_.attributes == AttributeMode::native ? "differs (native)" : "denormals only";
+  }
+
+  int exit_code() const {
+    int code = 0;
+    for (const Row& row : rows_) {
+      if (!row.failure.empty()) return 2;
+      if (is_mismatch(row)) code = 1;
+    }
+    return code;
+  }
+
+  void report() const {
+    Table table;
+    table.column("technique");
+    table.column("a");
+    table.column("b");
+    for (const char* heading : {"shaded", "coverage", "id", "depth", "attributes", "pixels", "denormal", "max ULP"})
+      table.column(heading, Table::Align::right);
+    table.column("verdict");
+    Json results = Json::array();
+    for (const Row& row : rows_) {
+      table.row(cells(row));
+      results.push_back(json(row));
+    }
+    std::string text = table.text();
+    for (const auto& [technique, reason] : skipped_) text += fmt::format("skipped {}: {}\n", technique, reason);
+    for (const Row& row : rows_)
+      if (!row.failure.empty()) text += fmt::format("failed {} on {}: {}\n", row.technique, row.b, row.failure);
+    for (const Row& row : rows_)
+      if (is_mismatch(row)) text += row.description;
+    output_.text(text);
+
+    Json skipped = Json::array();
+    for (const auto& [technique, reason] : skipped_) skipped.push_back({{"technique", technique}, {"reason", reason}});
+    output_.json({{"provenance", provenance_.json()}, {"results", results}, {"skipped", skipped}});
+  }
+
+  std::vector<std::string> cells(const Row& row) const {
+    std::vector<std::string> cells{row.technique, row.a, row.b};
+    const Comparison& c = row.comparison;
+    if (!row.failure.empty()) {
+      cells.resize(11, "-");
+    } else {
+      for (const std::uint64_t count : {c.shaded_pixels, c.coverage_differs, c.id_differs, c.depth_differs,
+                                        c.attributes_differ, c.pixels_differ, c.denormal_only})
+        cells.push_back(std::to_string(count));
+      cells.push_back(c.max_ulp == UINT64_MAX ? "NaN" : std::to_string(c.max_ulp));
+    }
+    cells.push_back(verdict(row));
+    return cells;
+  }
+
+  Json json(const Row& row) const {
+    Json json{{"technique", row.technique},
+              {"map", nullptr},
+              {"a", row.a},
+              {"b", row.b},
+              {"attributes", attribute_mode_name(verb_.attributes)}};
+    if (!row.failure.empty()) {
+      json["error"] = row.failure;
+      return json;
+    }
+    const Comparison& c = row.comparison;
+    json["shaded_pixels"] = c.shaded_pixels;
+    json["coverage_differs"] = c.coverage_differs;
+    json["id_differs"] = c.id_differs;
+    json["depth_differs"] = c.depth_differs;
+    json["attributes_differ"] = c.attributes_differ;
+    json["pixels_differ"] = c.pixels_differ;
+    json["denormal_only"] = c.denormal_only;
+    json["max_ulp"] = c.max_ulp;
+    json["first_difference"] = row.first_difference;
+    json["verdict"] = verdict(row);
+    json["a_frame"] = row.hash_a;
+    json["b_frame"] = row.hash_b;
+    return json;
+  }
+
+  const CompareVerb& verb_;
+  const Output& output_;
+  Provenance provenance_;
+  const Subject subject_;
+  Machines machines_;
+  std::vector<Row> rows_;
+  std::vector<std::pair<std::string, std::string>> skipped_;
+};
+
+int CompareVerb::run() const {
+  apply(common);
+  const Output output(common);
+  require_backends(backends);
+  if (backends.size() < 2) throw UserError("--on: name at least two backends to compare, as cpu,egl");
+  if (backends.front() == "softpipe") throw UserError("--on: softpipe shades what the CPU covered; name cpu first");
+  if (cpu.number == Number::float64)
+    throw UserError("--number float64: frames in double have other bits by design; twinshade render draws them");
+  if (!folder.empty()) require_writable_folder(folder);
+  return CompareRun(*this, output).run();
+}
+
+}  // namespace
+
+Verb add_compare(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("compare", "draw on several machines and compare the frames bit by bit");
+  const auto verb = std::make_shared<CompareVerb>();
+  add_subject_options(*command, verb->subject);
+  add_shading_options(*command, verb->shading, "all");
+  command
+      ->add_option("--on", verb->backends,
+                   "backends of cpu, egl, osmesa, softpipe; the first is the reference (default: cpu,egl,osmesa)")
+      ->delimiter(',')
+      ->type_name("A,B,...");
+  add_attribute_option(*command, verb->attributes);
+  command->add_option("-o,--output", verb->folder, "folder for pictures of the frames and their differences")
+      ->type_name("DIR");
+  add_time_limit_option(*command, verb->time_limit_seconds);
+  add_cpu_options(*command, verb->cpu);
+  add_fma_option(*command, verb->host_fma);
+  add_picture_options(*command, verb->picture);
+  add_common_options(*command, verb->common);
+  return {command, [verb] { return verb->run(); }};
+}
+
+}  // namespace twinshade

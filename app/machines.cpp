@@ -1,0 +1,103 @@
+#include "app/machines.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/names.h"
+#include "base/parallel.h"
+#include "cpu_shaders/load/load.h"
+#include "raster/tiled/tiled_renderer.h"
+#if TWINSHADE_HAS_GL
+#include "raster/gl/gl_renderer.h"
+#endif
+
+namespace twinshade {
+namespace {
+
+#if TWINSHADE_HAS_GL
+GlEnvironment gl_environment(bool host_fma) {
+  GlEnvironment environment;
+  environment.threads = thread_count();
+  environment.host_fma = host_fma;
+  return environment;
+}
+
+std::unique_ptr<Renderer> make_gl(const std::string& backend, bool host_fma) {
+  return make_gl_renderer(backend == "egl" ? GlBackend::egl : GlBackend::osmesa, gl_environment(host_fma));
+}
+
+Frame shade_gl(const Bundle& bundle, const ShaderSource& source, const Frame& cpu_frame, bool host_fma,
+               double time_limit_seconds) {
+  return shade_on_softpipe(bundle, source, cpu_frame, gl_environment(host_fma), time_limit_seconds);
+}
+#else
+[[noreturn]] void refuse(const std::string& backend) {
+  throw BackendError(backend + ": this build has no OpenGL backends (TWINSHADE_GL=OFF)");
+}
+
+std::unique_ptr<Renderer> make_gl(const std::string& backend, bool) { refuse(backend); }
+Frame shade_gl(const Bundle&, const ShaderSource&, const Frame&, bool, double) { refuse("softpipe"); }
+#endif
+
+}  // namespace
+
+const std::vector<std::string>& backend_names() {
+  static const std::vector<std::string> names{"cpu", "egl", "osmesa", "softpipe"};
+  return names;
+}
+
+void require_backends(const std::vector<std::string>& names) {
+  const auto& known = backend_names();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (std::find(known.begin(), known.end(), names[i]) == known.end())
+      throw UserError(unknown_name_message("backend", names[i], known));
+    if (std::find(names.begin(), names.begin() + std::ptrdiff_t(i), names[i]) != names.begin() + std::ptrdiff_t(i))
+      throw UserError("--on: " + names[i] + " is named twice");
+  }
+}
+
+Frame Machines::draw(const std::string& backend, const Bundle& bundle, const ShaderSource& source, DrawOptions options,
+                     const Frame* cpu_frame) {
+  options.tile_size = cpu_.tile_size;
+  options.isa = cpu_.isa;
+  options.number = number();
+  if (backend == "softpipe") {
+    TWINSHADE_CHECK_EQ(cpu_frame != nullptr, true);
+    return shade_gl(bundle, source, *cpu_frame, host_fma_, options.time_limit_seconds);
+  }
+  return renderer(backend).draw(bundle, source, options);
+}
+
+bool Machines::uses_derivatives(const ShaderSource& source) const {
+  return load_module(source, number(), cpu_.isa).uses_derivatives;
+}
+
+Number Machines::number() const { return cpu_.number.value_or(natural_number(cpu_.isa.value_or(best_isa()))); }
+
+Renderer& Machines::renderer(const std::string& backend) {
+  std::unique_ptr<Renderer>& made = renderers_[backend];
+  if (!made) made = backend == "cpu" ? make_tiled_renderer(load_module) : make_gl(backend, host_fma_);
+  return *made;
+}
+
+Isa best_isa() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("x86-64-v4")) return Isa::avx512;
+  if (__builtin_cpu_supports("x86-64-v3")) return Isa::avx2;
+#endif
+  return Isa::baseline;
+}
+
+Number natural_number(Isa isa) {
+  switch (isa) {
+    case Isa::avx512:
+      return Number::lanes16;
+    case Isa::avx2:
+      return Number::lanes8;
+    case Isa::baseline:
+      return Number::lanes4;
+  }
+  return Number::lanes4;
+}
+
+}  // namespace twinshade

@@ -1,0 +1,43 @@
+// The renderers by name, made when first needed.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/options.h"
+#include "raster/renderer.h"
+
+namespace twinshade {
+
+// "cpu", "egl", "osmesa", "softpipe": those that --on takes.
+const std::vector<std::string>& backend_names();
+// UserError with the nearest names where one is unknown or named twice.
+void require_backends(const std::vector<std::string>& names);
+
+class Machines {
+ public:
+  // host_fma: false runs OpenGL on the processor's capabilities without fused multiply-add.
+  Machines(const CpuOptions& cpu, bool host_fma) : cpu_(cpu), host_fma_(host_fma) {}
+
+  // cpu_frame: softpipe only, the CPU's frame with captured attributes.
+  Frame draw(const std::string& backend, const Bundle& bundle, const ShaderSource& source, DrawOptions options,
+             const Frame* cpu_frame = nullptr);
+  bool uses_derivatives(const ShaderSource& source) const;
+
+ private:
+  Number number() const;
+  Renderer& renderer(const std::string& backend);
+
+  CpuOptions cpu_;
+  bool host_fma_;
+  std::map<std::string, std::unique_ptr<Renderer>> renderers_;
+};
+
+// The best instruction set that this processor and this build have.
+Isa best_isa();
+// The widest number type that shading has for an instruction set: what is drawn with unless the user says otherwise.
+Number natural_number(Isa isa);
+
+}  // namespace twinshade

@@ -1,0 +1,77 @@
+// twinshade: one GLSL shading function, two machines, compared bit by bit.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <new>
+
+#include "app/options.h"
+#include "base/error.h"
+#include "base/names.h"
+#include "raster/renderer.h"
+#if TWINSHADE_HAS_GL
+#include "raster/gl/gl_renderer.h"
+#endif
+
+namespace twinshade {
+namespace {
+
+std::string one_line(std::string text) {
+  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+int fail(const std::string& what) {
+  fmt::print(stderr, "twinshade: {}\n", one_line(what));
+  return 2;
+}
+
+// CLI11's own words for a mistyped verb do not say which ones there are.
+void require_verb(int argc, char** argv, const std::vector<Verb>& verbs) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> names;
+  for (const Verb& verb : verbs) names.push_back(verb.command->get_name());
+  if (std::find(names.begin(), names.end(), argv[1]) == names.end())
+    throw UserError(unknown_name_message("verb", argv[1], names));
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("One GLSL shading function, two machines, compared bit by bit.", "twinshade");
+  app.set_version_flag("--version", TWINSHADE_VERSION);
+  app.require_subcommand(1);
+  const std::vector<Verb> verbs{add_list(app),    add_bake(app),      add_render(app),
+                                add_compare(app), add_translate(app), add_bench(app)};
+  try {
+    require_verb(argc, argv, verbs);
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    std::string verb;
+    for (const CLI::App* command : app.get_subcommands()) verb += command->get_name() + " ";
+    return fail(one_line(error.what()) + " (twinshade " + verb + "--help lists what there is)");
+  }
+  for (const Verb& verb : verbs)
+    if (verb.command->parsed()) return verb.run();
+  return 2;
+}
+
+int run_and_report(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory; try a smaller --size or --lightmap");
+  } catch (const std::exception& error) {  // UserError, BackendError
+    return fail(error.what());
+  }
+}
+
+}  // namespace
+}  // namespace twinshade
+
+int main(int argc, char** argv) {
+#if TWINSHADE_HAS_GL
+  if (const std::optional<int> worker = twinshade::run_gl_worker_if_asked(argc, argv)) return *worker;
+#endif
+  return twinshade::run_and_report(argc, argv);
+}

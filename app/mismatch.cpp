@@ -1,0 +1,103 @@
+#include "app/mismatch.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+
+namespace twinshade {
+namespace {
+
+bool is_discrete(const Difference& d) { return d.layer == "coverage" || d.layer == "id"; }
+
+std::string component_name(const Difference& d, const Frame& frame_a) {
+  if (d.layer == "color") return fmt::format("color.{}", "rgba"[d.component]);
+  if (d.layer == "attributes" && d.component < frame_a.attribute_names.size())
+    return frame_a.attribute_names[d.component];
+  return d.layer;
+}
+
+std::string id_text(std::uint32_t id) { return id == kNoPrimitive ? "none" : std::to_string(id); }
+
+std::string value_text(const Difference& d, std::uint32_t bits) {
+  if (d.layer == "coverage") return bits ? "covered" : "not covered";
+  if (d.layer == "id") return "triangle " + id_text(bits);
+  const auto value = std::bit_cast<float>(bits);
+  return fmt::format("{} ({})", value, hex_float(value));
+}
+
+std::string ulp_text(std::uint64_t ulp) { return ulp == UINT64_MAX ? "NaN on one side" : fmt::format("{} ULP", ulp); }
+
+std::string values_text(const Difference& d, const std::string& a, const std::string& b, const Frame& frame_a) {
+  std::string text = fmt::format("{}: {} {}, {} {}", component_name(d, frame_a), a, value_text(d, d.a_bits), b,
+                                 value_text(d, d.b_bits));
+  if (!is_discrete(d)) text += ": " + ulp_text(d.ulp);
+  return text;
+}
+
+std::string histogram_text(const Comparison& comparison) {
+  std::string text;
+  for (std::size_t bin = 1; bin < comparison.ulp_histogram.size(); ++bin) {
+    const std::uint64_t count = comparison.ulp_histogram[bin];
+    if (count == 0) continue;
+    if (!text.empty()) text += ", ";
+    if (bin == 64)
+      text += fmt::format("NaN on one side: {}", count);
+    else if (bin == 1)
+      text += fmt::format("1: {}", count);
+    else
+      text += fmt::format("{}-{}: {}", 1ull << (bin - 1), (1ull << bin) - 1, count);
+  }
+  return text;
+}
+
+Json float_json(double value) { return std::isfinite(value) ? Json(value) : Json(fmt::format("{}", value)); }
+
+}  // namespace
+
+std::string describe_mismatch(const std::string& technique, const std::string& a, const std::string& b,
+                              const Comparison& comparison, const Frame& frame_a) {
+  if (!comparison.first) return "";
+  const Difference& first = *comparison.first;
+  const auto triangle = frame_a.primitive_id[std::size_t(first.y) * frame_a.width + first.x];
+  std::string text = fmt::format(
+      "\n{}: {} and {} differ, first in layer {}, at pixel ({}, {}) (y up; row {} from the top), triangle {}\n",
+      technique, a, b, first.layer, first.x, first.y, frame_a.height - 1 - first.y, id_text(triangle));
+  text += "  " + values_text(first, a, b, frame_a) + '\n';
+  if (!first.inputs.empty()) {
+    text += "  inputs of the shader there:\n";
+    for (const auto& [name, value] : first.inputs)
+      text += fmt::format("    {} = {} ({})\n", name, value, hex_float(value));
+  }
+  if (comparison.worst.size() > 1) {
+    text += fmt::format("  worst of layer {}:\n", first.layer);
+    for (const Difference& d : comparison.worst)
+      text += fmt::format("    ({}, {}) {}\n", d.x, d.y, values_text(d, a, b, frame_a));
+  }
+  if (const std::string histogram = histogram_text(comparison); !histogram.empty())
+    text += "  colour components by ULP: " + histogram + '\n';
+  return text;
+}
+
+Json difference_json(const std::optional<Difference>& difference, const Frame& frame_a) {
+  if (!difference) return nullptr;
+  const Difference& d = *difference;
+  Json json;
+  json["layer"] = d.layer;
+  json["x"] = d.x;
+  json["y"] = d.y;
+  json["component"] = component_name(d, frame_a);
+  json["a"] = float_json(d.a);
+  json["b"] = float_json(d.b);
+  if (!is_discrete(d)) {
+    json["a_hex"] = hex_float(std::bit_cast<float>(d.a_bits));
+    json["b_hex"] = hex_float(std::bit_cast<float>(d.b_bits));
+    json["ulp"] = d.ulp;
+  }
+  json["inputs"] = Json::array();
+  for (const auto& [name, value] : d.inputs)
+    json["inputs"].push_back({{"name", name}, {"value", float_json(double(value))}, {"hex", hex_float(value)}});
+  return json;
+}
+
+}  // namespace twinshade

@@ -1,0 +1,218 @@
+#include "app/options.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/names.h"
+#include "base/parallel.h"
+
+namespace twinshade {
+namespace {
+
+constexpr std::array<const char*, 3> kIsaNames{"baseline", "avx2", "avx512"};
+constexpr std::array<const char*, 5> kNumberNames{"lanes4", "lanes8", "lanes16", "scalar", "float64"};
+constexpr std::array<const char*, 2> kAttributeModeNames{"exact", "native"};
+constexpr std::array<const char*, 3> kTonemapNames{"none", "reinhard", "aces"};
+
+constexpr std::uint32_t kLargestFrame = 16384;
+constexpr std::uint32_t kLargestLightmap = 8192;
+constexpr std::uint32_t kMostRays = 1 << 20;
+constexpr int kMostThreads = 1024;
+
+// Index of `value` in `names`; UserError with the nearest ones where there is none.
+template <std::size_t count>
+std::size_t index_of(const std::array<const char*, count>& names, const std::string& kind, const std::string& value) {
+  for (std::size_t i = 0; i < count; ++i)
+    if (value == names[i]) return i;
+  throw UserError(unknown_name_message(kind, value, {names.begin(), names.end()}));
+}
+
+template <class T>
+bool parse_whole(std::string_view text, T& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+template <class T>
+T parse_between(const std::string& option, const std::string& text, T least, T most) {
+  T value{};
+  if (!parse_whole(text, value) || value < least || value > most)
+    throw UserError(fmt::format("{} {}: must be a whole number from {} to {}", option, text, least, most));
+  return value;
+}
+
+double parse_real(const std::string& option, const std::string& text) {
+  double value = 0;
+  if (!parse_whole(text, value) || !std::isfinite(value))
+    throw UserError(fmt::format("{} {}: must be a finite number", option, text));
+  return value;
+}
+
+void parse_size(const std::string& text, std::uint32_t& width, std::uint32_t& height) {
+  const std::size_t cross = text.find('x');
+  const std::string_view all(text);
+  if (cross == std::string::npos || !parse_whole(all.substr(0, cross), width) ||
+      !parse_whole(all.substr(cross + 1), height) || width < 1 || height < 1 || width > kLargestFrame ||
+      height > kLargestFrame)
+    throw UserError(
+        fmt::format("--size {}: must be WIDTHxHEIGHT, each from 1 to {}, as 1280x800", text, kLargestFrame));
+}
+
+Camera parse_camera(const std::string& text) {
+  std::array<double, 7> v{};
+  std::string_view rest(text);
+  bool good = true;
+  for (std::size_t i = 0; i < v.size() && good; ++i) {
+    const std::size_t comma = i + 1 < v.size() ? rest.find(',') : rest.size();
+    good = comma != std::string_view::npos && parse_whole(rest.substr(0, comma), v[i]) && std::isfinite(v[i]);
+    if (good) rest.remove_prefix(std::min(comma + 1, rest.size()));
+  }
+  if (!good)
+    throw UserError("--camera " + text +
+                    ": must be seven numbers EYEX,EYEY,EYEZ,TARGETX,TARGETY,TARGETZ,FOV (degrees)");
+  Camera camera;
+  camera.eye = {v[0], v[1], v[2]};
+  camera.target = {v[3], v[4], v[5]};
+  camera.vertical_fov_degrees = v[6];
+  if (camera.eye == camera.target) throw UserError("--camera " + text + ": eye and target are the same point");
+  if (!(v[6] > 0 && v[6] < 180))
+    throw UserError("--camera " + text + ": field of view must be between 0 and 180 degrees");
+  return camera;
+}
+
+bool parse_switch(const std::string& option, const std::string& text) {
+  if (text != "on" && text != "off") throw UserError(option + " " + text + ": must be on or off");
+  return text == "on";
+}
+
+// An option whose text is parsed by `parse`, which throws UserError.
+void add_parsed(CLI::App& command, const std::string& name, const std::string& shape, const std::string& description,
+                std::function<void(const std::string&)> parse) {
+  command.add_option_function<std::string>(name, std::move(parse), description)->type_name(shape);
+}
+
+}  // namespace
+
+void add_common_options(CLI::App& command, CommonOptions& options) {
+  command.add_option("--json", options.json, "write the results as JSON; - for stdout")->type_name("FILE");
+  add_parsed(command, "--threads", "N", "threads of the CPU and of llvmpipe (default: one per processor)",
+             [&](const std::string& text) { options.threads = parse_between("--threads", text, 1, kMostThreads); });
+  add_parsed(command, "--seed", "N", "seed of everything random (default: 1)", [&](const std::string& text) {
+    options.seed = parse_between<std::uint64_t>("--seed", text, 0, UINT64_MAX);
+  });
+  command.add_flag("--quiet", options.quiet, "no progress and no notes");
+}
+
+void add_subject_options(CLI::App& command, SubjectOptions& options) {
+  const auto given = [&options](const char* name, auto parse) {
+    return [&options, name, parse](const std::string& text) {
+      options.given.emplace_back(name);
+      parse(text);
+    };
+  };
+  command.add_option("scene", options.scene, "built-in scene, model file or bundle file (default: courtyard)")
+      ->type_name("SCENE");
+  add_parsed(command, "--env", "E", "built-in environment or lat-long .hdr/.exr (default: sky)",
+             given("--env", [&](const std::string& text) { options.environment = text; }));
+  add_parsed(command, "--env-rotation", "DEG", "turns the environment about the vertical",
+             given("--env-rotation",
+                   [&](const std::string& text) { options.rotation_degrees = parse_real("--env-rotation", text); }));
+  command.add_flag("--clamp-radiance", options.clamp_radiance,
+                   "accept environments with NaN, infinite or negative radiance");
+  add_parsed(command, "--size", "WxH", "size of the frame (default: 1280x800)",
+             given("--size", [&](const std::string& text) { parse_size(text, options.width, options.height); }));
+  add_parsed(command, "--camera", "EYE,TARGET,FOV",
+             "seven numbers; vertical field of view in degrees (default: the scene's)",
+             given("--camera", [&](const std::string& text) { options.camera = parse_camera(text); }));
+  add_parsed(command, "--lightmap", "N", "lightmap texels each way (default: 512)",
+             given("--lightmap", [&](const std::string& text) {
+               options.lightmap_size = parse_between<std::uint32_t>("--lightmap", text, 1, kLargestLightmap);
+             }));
+  add_parsed(command, "--rays", "N", "rays per texel or vertex (default: 256)",
+             given("--rays", [&](const std::string& text) {
+               options.rays = parse_between<std::uint32_t>("--rays", text, 1, kMostRays);
+             }));
+  add_parsed(command, "--albedo", "on|off", "materials' colours (default: on)",
+             given("--albedo", [&](const std::string& text) { options.albedo = parse_switch("--albedo", text); }));
+  add_parsed(
+      command, "--normal-map", "on|off", "materials' normal maps (default: on)",
+      given("--normal-map", [&](const std::string& text) { options.normal_map = parse_switch("--normal-map", text); }));
+}
+
+void add_technique_option(CLI::App& command, ShadingOptions& options, const std::string& default_techniques) {
+  options.techniques = {default_techniques};
+  command.add_option("--technique", options.techniques, "techniques, or all (default: " + default_techniques + ")")
+      ->delimiter(',')
+      ->type_name("T,...");
+}
+
+void add_shading_options(CLI::App& command, ShadingOptions& options, const std::string& default_techniques) {
+  add_technique_option(command, options, default_techniques);
+  command.add_option("--shader", options.shader, "draw with this fragment shader instead of a technique")
+      ->type_name("MY.frag");
+}
+
+void add_attribute_option(CLI::App& command, AttributeMode& attributes) {
+  add_parsed(command, "--attributes", "exact|native", "how attributes are interpolated (default: exact)",
+             [&](const std::string& text) {
+               attributes = AttributeMode(index_of(kAttributeModeNames, "attribute mode", text));
+             });
+}
+
+void add_fma_option(CLI::App& command, bool& host_fma) {
+  add_parsed(command, "--gl-fma", "on|off", "fused multiply-add within llvmpipe (default: on)",
+             [&](const std::string& text) { host_fma = parse_switch("--gl-fma", text); });
+  command.add_flag_callback(
+      "--no-host-fma", [&host_fma] { host_fma = false; }, "short for --gl-fma off");
+}
+
+void add_cpu_options(CLI::App& command, CpuOptions& options) {
+  add_parsed(command, "--isa", "baseline|avx2|avx512",
+             "instruction set of the CPU's shading (default: the best there is)",
+             [&](const std::string& text) { options.isa = Isa(index_of(kIsaNames, "instruction set", text)); });
+  add_parsed(command, "--number", "lanes4|lanes8|lanes16|scalar|float64", "number type of the CPU's shading",
+             [&](const std::string& text) { options.number = parse_number(text); });
+  add_parsed(command, "--lanes", "4|8|16", "short for --number lanesN", [&](const std::string& text) {
+    if (text != "4" && text != "8" && text != "16") throw UserError("--lanes " + text + ": must be 4, 8 or 16");
+    options.number = parse_number("lanes" + text);
+  });
+  add_parsed(command, "--tile", "16|32|64|128", "tile size of the CPU (default: 64)", [&](const std::string& text) {
+    if (text != "16" && text != "32" && text != "64" && text != "128")
+      throw UserError("--tile " + text + ": must be 16, 32, 64 or 128");
+    parse_whole(text, options.tile_size);
+  });
+  command.get_option("--lanes")->excludes(command.get_option("--number"));
+}
+
+void add_count_option(CLI::App& command, const std::string& name, int& count, const std::string& description) {
+  add_parsed(command, name, "N", fmt::format("{} (default: {})", description, count),
+             [name, &count](const std::string& text) { count = parse_between(name, text, 1, 1000); });
+}
+
+void add_time_limit_option(CLI::App& command, double& seconds) {
+  add_parsed(command, "--time-limit", "SECONDS", "for each frame that OpenGL draws (default: 60)",
+             [&](const std::string& text) {
+               seconds = parse_real("--time-limit", text);
+               if (!(seconds > 0)) throw UserError("--time-limit " + text + ": must be more than 0");
+             });
+}
+
+void add_picture_options(CLI::App& command, PictureOptions& options) {
+  add_parsed(command, "--exposure", "STOPS", "exposure of PNG pictures (default: 0)",
+             [&](const std::string& text) { options.exposure = parse_real("--exposure", text); });
+  add_parsed(command, "--tonemap", "none|reinhard|aces", "tone curve of PNG pictures (default: reinhard)",
+             [&](const std::string& text) { options.tonemap = Tonemap(index_of(kTonemapNames, "tone curve", text)); });
+}
+
+void apply(const CommonOptions& options) { set_thread_count(options.threads); }
+
+const char* isa_name(Isa isa) { return kIsaNames[std::size_t(isa)]; }
+const char* number_name(Number number) { return kNumberNames[std::size_t(number)]; }
+const char* attribute_mode_name(AttributeMode attributes) { return kAttributeModeNames[std::size_t(attributes)]; }
+Number parse_number(const std::string& name) { return Number(index_of(kNumberNames, "number type", name)); }
+
+}  // namespace twinshade

@@ -1,0 +1,88 @@
+// Options that several verbs share, each declared, parsed and checked in one place.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cpu_shaders/runtime/shader_abi.h"
+#include "golden/pictures.h"
+#include "raster/renderer.h"
+#include "scenes/scene.h"
+
+namespace twinshade {
+
+// A verb of the command line: its CLI11 subcommand and what it does. run returns the exit code: 0 as it should be, 1 a
+// mismatch, 2 some backend could not draw. Everything else is thrown.
+struct Verb {
+  CLI::App* command = nullptr;
+  std::function<int()> run;
+};
+
+Verb add_list(CLI::App& app);
+Verb add_bake(CLI::App& app);
+Verb add_render(CLI::App& app);
+Verb add_compare(CLI::App& app);
+Verb add_translate(CLI::App& app);
+Verb add_bench(CLI::App& app);
+
+// Every verb.
+struct CommonOptions {
+  std::string json;  // file, "-" for stdout, empty: none
+  int threads = 0;   // 0: one per processor
+  std::uint64_t seed = 1;
+  bool quiet = false;
+};
+
+// What is drawn: all that goes into a bundle.
+struct SubjectOptions {
+  std::string scene = "courtyard";  // built-in name, model or bundle file
+  std::string environment = "sky";
+  double rotation_degrees = 0;
+  bool clamp_radiance = false;
+  std::uint32_t width = 1280, height = 800;
+  std::optional<Camera> camera;  // eye, target and field of view of the user's; the rest is the scene's
+  bool albedo = true, normal_map = true;
+  std::uint32_t lightmap_size = 512, rays = 256;
+  std::vector<std::string> given;  // names of those options that were set: a bundle file admits none
+};
+
+// Which shaders draw it.
+struct ShadingOptions {
+  std::vector<std::string> techniques;  // "all" or names
+  std::string shader;                   // a user's fragment shader, or empty
+};
+
+// How the CPU draws.
+struct CpuOptions {
+  std::optional<Isa> isa;
+  std::optional<Number> number;
+  int tile_size = 64;
+};
+
+void add_common_options(CLI::App& command, CommonOptions& options);
+void add_subject_options(CLI::App& command, SubjectOptions& options);
+void add_technique_option(CLI::App& command, ShadingOptions& options, const std::string& default_techniques);
+// --technique and --shader.
+void add_shading_options(CLI::App& command, ShadingOptions& options, const std::string& default_techniques);
+void add_attribute_option(CLI::App& command, AttributeMode& attributes);
+// --gl-fma, and --no-host-fma for short.
+void add_fma_option(CLI::App& command, bool& host_fma);
+void add_cpu_options(CLI::App& command, CpuOptions& options);
+void add_count_option(CLI::App& command, const std::string& name, int& count,
+                      const std::string& description);  // 1 to 1000
+void add_time_limit_option(CLI::App& command, double& seconds);
+void add_picture_options(CLI::App& command, PictureOptions& options);
+
+// Sets the thread count; to be called once the options are parsed.
+void apply(const CommonOptions& options);
+
+const char* isa_name(Isa isa);
+const char* number_name(Number number);
+const char* attribute_mode_name(AttributeMode attributes);
+Number parse_number(const std::string& name);
+
+}  // namespace twinshade

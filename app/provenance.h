@@ -1,0 +1,28 @@
+// Where a result comes from, as JSON: what one needs to make it again.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/output.h"
+#include "app/subject.h"
+#include "raster/renderer.h"
+
+namespace twinshade {
+
+class Provenance {
+ public:
+  explicit Provenance(const CommonOptions& options);
+  void add(const Subject& subject);
+  void add(const Shading& shading);
+  // GL_RENDERER, instruction set ...: what the backend says about itself. The first frame of a backend counts.
+  void add(const std::string& backend, const Frame& frame);
+  Json json() const { return json_; }
+
+ private:
+  Json json_;
+};
+
+}  // namespace twinshade

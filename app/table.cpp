@@ -1,0 +1,42 @@
+#include "app/table.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace twinshade {
+
+void Table::column(std::string heading, Align align) {
+  headings_.push_back(std::move(heading));
+  aligns_.push_back(align);
+}
+
+void Table::row(std::vector<std::string> cells) {
+  TWINSHADE_CHECK_LE(cells.size(), headings_.size());
+  cells.resize(headings_.size());
+  rows_.push_back(std::move(cells));
+}
+
+std::string Table::text() const {
+  std::vector<std::size_t> widths;
+  for (const std::string& heading : headings_) widths.push_back(heading.size());
+  for (const auto& cells : rows_)
+    for (std::size_t c = 0; c < cells.size(); ++c) widths[c] = std::max(widths[c], cells[c].size());
+
+  std::string text;
+  const auto add = [&](const std::vector<std::string>& cells) {
+    std::string line;
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      const std::string padding(widths[c] - cells[c].size(), ' ');
+      if (c > 0) line += "  ";
+      line += aligns_[c] == Align::left ? cells[c] + padding : padding + cells[c];
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + '\n';
+  };
+  add(headings_);
+  for (const auto& cells : rows_) add(cells);
+  return text;
+}
+
+}  // namespace twinshade

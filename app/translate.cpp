@@ -1,0 +1,87 @@
+// translate: the C++ that a shader becomes, to read.
+#include "cpu_shaders/translate/translate.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "app/output.h"
+#include "app/provenance.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/names.h"
+#include "lighting/registry.h"
+
+namespace twinshade {
+namespace {
+
+// A file if there is one of that name or it looks like a path; else a technique, "h4", or its per-vertex form,
+// "h4_vertex".
+ShaderSource source_of(const std::string& name) {
+  std::error_code code;
+  if (std::filesystem::exists(name, code) || name.find_first_of("./\\") != std::string::npos) return load_shader(name);
+  std::vector<std::string> names;
+  for (const TechniqueInfo& technique : techniques()) {
+    if (name == technique.name) return technique_source(technique, CoefficientStorage::lightmap);
+    if (name == std::string(technique.name) + "_vertex") return technique_source(technique, CoefficientStorage::vertex);
+    names.emplace_back(technique.name);
+  }
+  throw UserError(unknown_name_message("technique or shader file", name, names));
+}
+
+struct TranslateVerb {
+  CommonOptions common;
+  std::string shader, file;
+
+  int run() const {
+    const Output output(common);
+    if (!file.empty()) require_writable_file(file);
+    if (file.empty() && common.json == "-")
+      throw UserError("--json -: the C++ goes to stdout; name a file for one of them");
+    const ShaderSource source = source_of(shader);
+    TranslateOptions options;
+    options.readable = true;
+    const Translation translation = translate(source, options);
+    if (file.empty())
+      output.text(translation.cpp);
+    else
+      write_file(file, translation.cpp);
+    report_json(output, source, translation.reflection);
+    return 0;
+  }
+
+  void report_json(const Output& output, const ShaderSource& source, const Reflection& reflection) const {
+    const auto names = [](const auto& list) {
+      Json json = Json::array();
+      for (const auto& entry : list) json.push_back(entry.name);
+      return json;
+    };
+    Provenance provenance(common);
+    provenance.add(Shading{shader, source});
+    output.json({{"provenance", provenance.json()},
+                 {"shader", shader},
+                 {"file", file.empty() ? Json(nullptr) : Json(file)},
+                 {"inputs", names(reflection.inputs)},
+                 {"outputs", names(reflection.outputs)},
+                 {"uniforms", names(reflection.uniforms)},
+                 {"resources", names(reflection.resources)},
+                 {"discards", reflection.discards},
+                 {"writes_depth", reflection.writes_depth},
+                 {"uses_derivatives", reflection.uses_derivatives},
+                 {"float64", reflection.no_float64_reason.empty() ? Json(true) : Json(reflection.no_float64_reason)}});
+  }
+};
+
+}  // namespace
+
+Verb add_translate(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("translate", "the C++ that a shader becomes, to read");
+  const auto verb = std::make_shared<TranslateVerb>();
+  command->add_option("shader", verb->shader, "fragment shader file, or a technique")->type_name("SHADER")->required();
+  command->add_option("-o,--output", verb->file, "C++ file to write (default: stdout)")->type_name("F.cpp");
+  add_common_options(*command, verb->common);
+  return {command, [verb] { return verb->run(); }};
+}
+
+}  // namespace twinshade

@@ -1,0 +1,222 @@
+// Clipping, setup and binning of all primitives (sort-middle with tile bins; Molnar et al., A sorting classification of
+// parallel rendering, 1994). Chunks of primitives in parallel; each tile's bin is in primitive order whatever the threads do.
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "cpu_shaders/runtime/denormals.h"
+#include "raster/tiled/clip.h"
+#include "raster/tiled/geometry.h"
+
+namespace twinshade::tiled {
+namespace {
+
+constexpr std::size_t kVerticesAtOnce = 4096;
+constexpr std::size_t kTrianglesAtOnce = 1024;
+constexpr std::size_t kMostChunks = std::size_t{1} << (32 - TriangleRef::kIndexBits);
+constexpr std::size_t kMostTileCounts = std::size_t{1} << 22;  // over all chunks: 16 MiB
+
+std::size_t divide_up(std::size_t a, std::size_t b) { return (a + b - 1) / b; }
+
+// Whether some point of the tile is inside each edge.
+bool may_touch(const RasterTriangle& t, std::uint32_t column, std::uint32_t row, std::uint32_t tile_size) {
+  const std::int64_t x0 = std::int64_t(column) * tile_size, x1 = x0 + tile_size - 1;
+  const std::int64_t y0 = std::int64_t(row) * tile_size, y1 = y0 + tile_size - 1;
+  for (int i = 0; i < 3; ++i)
+    if (t.c[i] + t.a[i] * (t.a[i] > 0 ? x1 : x0) + t.b[i] * (t.b[i] > 0 ? y1 : y0) < 0) return false;
+  return true;
+}
+
+// What one chunk's primitives need, and where they go.
+class ChunkSetup {
+ public:
+  ChunkSetup(const Bundle& bundle, const BoundDraw& draw, AttributeMode mode, const TileGrid& grid,
+             const Geometry& geometry, TriangleChunk& chunk)
+      : bundle_(bundle), draw_(draw), native_(mode == AttributeMode::native), grid_(grid), geometry_(geometry),
+        chunk_(chunk), viewport_(make_viewport(bundle.width, bundle.height)) {}
+
+  void run(std::size_t begin, std::size_t end) {
+    chunk_.triangles.clear();
+    chunk_.native.clear();
+    chunk_.clipped_inputs.clear();
+    chunk_.references.clear();
+    chunk_.tile_counts.assign(grid_.count(), 0);
+    for (std::size_t primitive = begin; primitive < end; ++primitive) add_primitive(std::uint32_t(primitive));
+    TWINSHADE_CHECK_LT(chunk_.triangles.size(), std::size_t{1} << TriangleRef::kIndexBits);
+  }
+
+ private:
+  struct Corner {
+    WindowVertex window;
+    WindowPosition position;  // native attributes only
+    std::uint32_t vertex;     // as NativeTriangle::vertex
+  };
+
+  Corner corner_of_vertex(std::uint32_t vertex) const {
+    return {geometry_.vertices[vertex], native_ ? geometry_.positions[vertex] : WindowPosition{}, vertex};
+  }
+
+  void add_primitive(std::uint32_t primitive) {
+    const std::uint32_t* index = &bundle_.indices[std::size_t(primitive) * 3];
+    std::uint32_t in_all = ~0u, in_any = 0;  // planes that vertices are outside of
+    for (int i = 0; i < 3; ++i) {
+      in_all &= geometry_.vertices[index[i]].outside;
+      in_any |= geometry_.vertices[index[i]].outside;
+    }
+    if (in_any == 0)
+      add_triangle(primitive, {corner_of_vertex(index[0]), corner_of_vertex(index[1]), corner_of_vertex(index[2])});
+    else if (!(in_any & kNotFinite) && in_all == 0)
+      add_clipped(primitive, index, in_any);
+  }
+
+  void add_clipped(std::uint32_t primitive, const std::uint32_t index[3], std::uint32_t outside) {
+    float positions[12];
+    for (int i = 0; i < 3; ++i) std::copy_n(&bundle_.clip_positions[std::size_t(index[i]) * 4], 4, positions + 4 * i);
+    const ClippedTriangle clipped = clip_triangle(positions, outside);
+    if (clipped.count < 3) return;
+    const std::size_t first_row = native_ ? add_clipped_inputs(clipped, index) : 0;
+    const auto corner = [&](std::uint8_t number) -> Corner {
+      if (number < 3) return corner_of_vertex(index[number]);
+      const WindowPosition position = to_window(clipped.added[number - 3].position, viewport_);
+      return {snap(position, 0), position, kClippedVertex | std::uint32_t(first_row + number - 3)};
+    };
+    for (int i = 2; i < clipped.count; ++i)  // the polygon's fan, its first vertex last, as Mesa emits it
+      add_triangle(primitive, {corner(clipped.polygon[std::size_t(i - 1)]), corner(clipped.polygon[std::size_t(i)]),
+                               corner(clipped.polygon[0])});
+  }
+
+  // Shader inputs of the new vertices, by the same t as their positions. Returns the row of the first.
+  std::size_t add_clipped_inputs(const ClippedTriangle& clipped, const std::uint32_t index[3]) {
+    const std::size_t stride = draw_.input_components;
+    const std::size_t first_row = stride ? chunk_.clipped_inputs.size() / stride : 0;
+    chunk_.clipped_inputs.resize(chunk_.clipped_inputs.size() + stride * std::size_t(clipped.added_count));
+    const auto row = [&](std::uint8_t number) {
+      return number < 3 ? &draw_.vertex_inputs[index[number] * stride]
+                        : &chunk_.clipped_inputs[(first_row + number - 3) * stride];
+    };
+    for (int k = 0; k < clipped.added_count && stride > 0; ++k) {
+      const NewVertex& v = clipped.added[std::size_t(k)];
+      const float* from = row(v.from);
+      const float* to = row(v.to);
+      float* out = &chunk_.clipped_inputs[(first_row + std::size_t(k)) * stride];
+      const float linear_t = screen_space_t(clipped, index, v);
+      for (std::size_t c = 0; c < stride; ++c) {
+        const float t = draw_.interpolation[c] == Interpolation::linear ? linear_t : v.t;
+        out[c] = from[c] + t * (to[c] - from[c]);
+      }
+    }
+    return first_row;
+  }
+
+  // t for noperspective inputs: where the new vertex is between the two on the screen.
+  float screen_space_t(const ClippedTriangle& clipped, const std::uint32_t index[3], const NewVertex& v) const {
+    const auto position = [&](std::uint8_t number) {
+      return number < 3 ? &bundle_.clip_positions[std::size_t(index[number]) * 4]
+                        : clipped.added[number - 3].position;
+    };
+    const float* from = position(v.from);
+    const float* to = position(v.to);
+    for (int k = 0; k < 2; ++k)
+      if (from[k] != to[k]) {
+        const float a = to[k] / to[3], b = from[k] / from[3], at = v.position[k] / v.position[3];
+        return (at - b) / (a - b);
+      }
+    return v.t;
+  }
+
+  void add_triangle(std::uint32_t primitive, const std::array<Corner, 3>& corners) {
+    const WindowVertex window[3] = {corners[0].window, corners[1].window, corners[2].window};
+    RasterTriangle triangle;
+    if (!set_up_triangle(window, grid_, bundle_.cull_back_faces, triangle)) return;
+    triangle.primitive = primitive;
+    add_references(triangle, std::uint32_t(chunk_.triangles.size()));
+    chunk_.triangles.push_back(triangle);
+    if (!native_) return;
+    NativeTriangle native;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Corner& from = corners[triangle.front_facing == 0 && i < 2 ? 1 - i : i];
+      native.position[i] = from.position;
+      native.vertex[i] = from.vertex;
+    }
+    chunk_.native.push_back(native);
+  }
+
+  void add_references(const RasterTriangle& t, std::uint32_t index) {
+    const std::uint32_t size = grid_.tile_size;
+    const std::uint32_t column0 = t.min_x / size, column1 = t.max_x / size;
+    const std::uint32_t row0 = t.min_y / size, row1 = t.max_y / size;
+    const bool one_tile = column0 == column1 && row0 == row1;
+    for (std::uint32_t row = row0; row <= row1; ++row)
+      for (std::uint32_t column = column0; column <= column1; ++column)
+        if (one_tile || may_touch(t, column, row, size)) {
+          const std::uint32_t tile = row * grid_.columns + column;
+          chunk_.references.push_back({tile, index});
+          ++chunk_.tile_counts[tile];
+        }
+  }
+
+  const Bundle& bundle_;
+  const BoundDraw& draw_;
+  const bool native_;
+  const TileGrid& grid_;
+  const Geometry& geometry_;
+  TriangleChunk& chunk_;
+  const Viewport viewport_;
+};
+
+}  // namespace
+
+TileGrid make_grid(std::uint32_t frame_width, std::uint32_t frame_height, int tile_size) {
+  if (tile_size != 16 && tile_size != 32 && tile_size != 64 && tile_size != 128)
+    throw UserError("tile size " + std::to_string(tile_size) + " is not 16, 32, 64 or 128");
+  const auto size = std::uint32_t(tile_size);
+  return {frame_width, frame_height, size, (frame_width + size - 1) / size, (frame_height + size - 1) / size};
+}
+
+void transform_vertices(const Bundle& bundle, AttributeMode mode, Geometry& geometry) {
+  const std::size_t count = bundle.vertex_count();
+  geometry.vertices.resize(count);
+  geometry.positions.resize(mode == AttributeMode::native ? count : 0);
+  const Viewport viewport = make_viewport(bundle.width, bundle.height);
+  parallel_for(divide_up(count, kVerticesAtOnce), [&](std::size_t i, int) {
+    const FlushDenormals flush;
+    transform_vertices(bundle.clip_positions.data(), i * kVerticesAtOnce, std::min(count, (i + 1) * kVerticesAtOnce),
+                       viewport, geometry.vertices.data(),
+                       geometry.positions.empty() ? nullptr : geometry.positions.data());
+  });
+}
+
+void set_up_and_bin(const Bundle& bundle, const BoundDraw& draw, AttributeMode mode, const TileGrid& grid,
+                    Geometry& geometry) {
+  const std::size_t triangles = bundle.triangle_count();
+  const std::size_t chunk_count =
+      std::clamp<std::size_t>(divide_up(triangles, kTrianglesAtOnce), 1,
+                              std::min(kMostChunks, std::max<std::size_t>(1, kMostTileCounts / grid.count())));
+  const std::size_t chunk_size = divide_up(triangles, chunk_count);
+  geometry.chunks.resize(chunk_count);
+  parallel_for(chunk_count, [&](std::size_t i, int) {
+    const FlushDenormals flush;
+    ChunkSetup(bundle, draw, mode, grid, geometry, geometry.chunks[i])
+        .run(std::min(triangles, i * chunk_size), std::min(triangles, (i + 1) * chunk_size));
+  });
+
+  // Where each chunk's references to each tile begin: tile by tile, chunks in order within.
+  geometry.bin_begin.resize(grid.count() + 1);
+  std::uint32_t begin = 0;
+  for (std::uint32_t tile = 0; tile < grid.count(); ++tile) {
+    geometry.bin_begin[tile] = begin;
+    for (TriangleChunk& chunk : geometry.chunks) begin += std::exchange(chunk.tile_counts[tile], begin);
+  }
+  geometry.bin_begin[grid.count()] = begin;
+  geometry.bins.resize(begin);
+  parallel_for(chunk_count, [&](std::size_t i, int) {
+    TriangleChunk& chunk = geometry.chunks[i];
+    for (const TriangleChunk::Reference reference : chunk.references)
+      geometry.bins[chunk.tile_counts[reference.tile]++].packed =
+          std::uint32_t(i) << TriangleRef::kIndexBits | reference.triangle;
+  });
+}
+
+}  // namespace twinshade::tiled

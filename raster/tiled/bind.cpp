@@ -1,0 +1,196 @@
+#include "raster/tiled/bind.h"
+
+#include <algorithm>
+#include <cstring>
+#include <string_view>
+
+#include "base/error.h"
+
+namespace twinshade::tiled {
+namespace {
+
+std::string quoted(std::string_view name) { return '"' + std::string(name) + '"'; }
+
+// The GLSL spelling: "vec3", "ivec2", "mat4x3", "float[5]".
+std::string type_name(Scalar scalar, std::uint32_t columns, std::uint32_t rows, std::uint32_t array_length) {
+  static constexpr const char* kScalars[] = {"float", "int", "uint", "bool"};
+  static constexpr const char* kPrefixes[] = {"", "i", "u", "b"};
+  std::string name = columns > 1 ? "mat" : kPrefixes[int(scalar)];
+  if (columns > 1) name.append(std::to_string(columns)).append("x").append(std::to_string(rows));
+  else if (rows > 1) name.append("vec").append(std::to_string(rows));
+  else name = kScalars[int(scalar)];
+  if (array_length > 0) name.append("[").append(std::to_string(array_length)).append("]");
+  return name;
+}
+
+// "the bundle has a, b, c" or "the bundle has none".
+template <class T>
+std::string inventory(const std::vector<T>& items) {
+  constexpr std::size_t kMost = 24;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(items.size(), kMost); ++i) list.append(i ? ", " : "").append(items[i].name);
+  if (items.size() > kMost) list += ", and " + std::to_string(items.size() - kMost) + " more";
+  return "the bundle has " + (list.empty() ? "none" : list);
+}
+
+// Element e, column c of an input as the bundle names it: arrays and matrices are one attribute an element or column.
+std::string attribute_name(const ShaderVariable& input, std::uint32_t element, std::uint32_t column) {
+  std::string name = input.name;
+  if (input.array_length > 0) name.append("[").append(std::to_string(element)).append("]");
+  if (input.columns > 1) name.append("[").append(std::to_string(column)).append("]");
+  return name;
+}
+
+class Binder {
+ public:
+  Binder(const Bundle& bundle, const ShaderModule& module, AttributeMode mode)
+      : bundle_(bundle), module_(module), mode_(mode) {}
+
+  BoundDraw bind() {
+    bind_inputs();
+    bind_uniforms();
+    bind_resources();
+    choose_color();
+    return std::move(draw_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw UserError("shader " + quoted(module_.name) + ": " + what);
+  }
+
+  void bind_inputs() {
+    draw_.input_components = module_.input_components;
+    draw_.vertex_inputs.resize(bundle_.vertex_count() * module_.input_components);
+    draw_.interpolation.resize(module_.input_components);
+    draw_.input_scalars.resize(module_.input_components);
+    draw_.component_names.resize(module_.input_components);
+    for (std::uint32_t i = 0; i < module_.input_count; ++i) {
+      const ShaderVariable& input = module_.inputs[i];
+      const bool flat = input.flat || input.scalar != Scalar::f32;
+      if (input.noperspective && !flat && mode_ == AttributeMode::exact)
+        fail("input " + quoted(input.name) + " is noperspective, which only native attributes have");
+      std::uint32_t component = input.first_component;
+      for (std::uint32_t element = 0; element < std::max(1u, input.array_length); ++element)
+        for (std::uint32_t column = 0; column < input.columns; ++column, component += input.rows)
+          bind_attribute(input, attribute_name(input, element, column), component,
+                         flat ? Interpolation::flat
+                              : input.noperspective ? Interpolation::linear : Interpolation::smooth);
+    }
+  }
+
+  void bind_attribute(const ShaderVariable& input, const std::string& name, std::uint32_t component,
+                      Interpolation interpolation) {
+    const Attribute* attribute = bundle_.find_attribute(name);
+    if (!attribute) fail("input " + quoted(name) + " is not in the bundle; " + inventory(bundle_.attributes));
+    if (attribute->scalar != input.scalar || attribute->components != input.rows)
+      fail("input " + quoted(name) + " is a " + type_name(input.scalar, 1, input.rows, 0) +
+           ", but the bundle's attribute is a " + type_name(attribute->scalar, 1, attribute->components, 0));
+    const std::size_t stride = module_.input_components;
+    for (std::size_t v = 0; v < bundle_.vertex_count(); ++v)
+      std::copy_n(&attribute->values[v * input.rows], input.rows, &draw_.vertex_inputs[v * stride + component]);
+    for (std::uint32_t row = 0; row < input.rows; ++row) {
+      draw_.interpolation[component + row] = interpolation;
+      draw_.input_scalars[component + row] = input.scalar;
+      draw_.component_names[component + row] = input.rows == 1 ? name : name + "." + "xyzw"[row];
+    }
+  }
+
+  void bind_uniforms() {
+    draw_.uniforms.assign(module_.uniform_bytes, std::byte{0});
+    for (std::uint32_t i = 0; i < module_.uniform_count; ++i) {
+      const ShaderUniform& wanted = module_.uniforms[i];
+      const Uniform* uniform = bundle_.find_uniform(wanted.name);
+      if (!uniform && wanted.array_length > 0) uniform = bundle_.find_uniform(std::string(wanted.name) + "[0]");
+      if (!uniform) fail("uniform " + quoted(wanted.name) + " is not in the bundle; " + inventory(bundle_.uniforms));
+      const std::string wanted_type = type_name(wanted.scalar, wanted.columns, wanted.rows, wanted.array_length);
+      const std::string type = type_name(uniform->scalar, uniform->columns, uniform->rows, uniform->array_length);
+      if (type != wanted_type)
+        fail("uniform " + quoted(wanted.name) + " is a " + wanted_type + ", but the bundle's is a " + type);
+      const float* value = uniform->values.data();
+      for (std::uint32_t element = 0; element < std::max(1u, wanted.array_length); ++element)
+        for (std::uint32_t column = 0; column < wanted.columns; ++column, value += wanted.rows)
+          std::memcpy(&draw_.uniforms[wanted.offset + element * wanted.array_stride + column * wanted.matrix_stride],
+                      value, wanted.rows * sizeof(float));
+    }
+  }
+
+  void bind_resources() {
+    draw_.textures.resize(module_.texture_count);
+    draw_.buffers.resize(module_.buffer_count);
+    draw_.buffer_bytes.resize(module_.buffer_count);
+    draw_.buffer_names.resize(module_.buffer_count);
+    for (std::uint32_t i = 0; i < module_.resource_count; ++i) {
+      const ShaderResource& wanted = module_.resources[i];
+      switch (wanted.kind) {
+        case ResourceKind::uniform_block: bind_buffer(wanted, false); break;
+        case ResourceKind::storage_buffer: bind_buffer(wanted, true); break;
+        case ResourceKind::sampler_2d: bind_texture(wanted, TextureKind::two_d, "sampler2D"); break;
+        case ResourceKind::sampler_2d_array: bind_texture(wanted, TextureKind::two_d_array, "sampler2DArray"); break;
+        case ResourceKind::sampler_cube: bind_texture(wanted, TextureKind::cube, "samplerCube"); break;
+      }
+    }
+  }
+
+  void bind_buffer(const ShaderResource& wanted, bool storage) {
+    const std::string what = (storage ? "storage buffer " : "uniform block ") + quoted(wanted.name);
+    const Buffer* buffer = bundle_.find_buffer(wanted.name);
+    if (!buffer) fail(what + " is not in the bundle; " + inventory(bundle_.buffers));
+    if (buffer->storage != storage)
+      fail(what + ": the bundle's buffer of that name is a " + (buffer->storage ? "storage buffer" : "uniform block"));
+    if (buffer->bytes.size() < wanted.minimum_size)
+      fail(what + " needs " + std::to_string(wanted.minimum_size) + " bytes, but the bundle's has " +
+           std::to_string(buffer->bytes.size()));
+    std::vector<std::byte>& copy = draw_.buffer_bytes[wanted.slot];
+    copy = buffer->bytes;
+    draw_.buffer_names[wanted.slot] = wanted.name;
+    draw_.buffers[wanted.slot] = {copy.data(), copy.size()};
+  }
+
+  void bind_texture(const ShaderResource& wanted, TextureKind kind, const char* sampler) {
+    static constexpr const char* kKinds[] = {"2D texture", "2D array texture", "cube texture"};
+    const Texture* texture = bundle_.find_texture(wanted.name);
+    if (!texture) fail("texture " + quoted(wanted.name) + " is not in the bundle; " + inventory(bundle_.textures));
+    if (texture->kind != kind)
+      fail(std::string(sampler) + " " + quoted(wanted.name) + " does not fit the bundle's " + kKinds[int(texture->kind)]);
+    TextureView& view = draw_.textures[wanted.slot];
+    view.texels = texture->texels.data();
+    view.width = std::int32_t(texture->width);
+    view.height = std::int32_t(texture->height);
+    view.layers = std::int32_t(texture->layers);
+    view.row_pitch = std::ptrdiff_t(texture->width) * 4;
+    view.layer_pitch = view.row_pitch * std::ptrdiff_t(texture->height);
+    view.kind = kind;
+    view.filter = texture->filter;
+    view.wrap = texture->wrap;
+  }
+
+  void choose_color() {
+    if (module_.output_count == 0) return;
+    const ShaderVariable* color = &module_.outputs[0];
+    for (std::uint32_t i = 0; i < module_.output_count; ++i)
+      if (module_.outputs[i].location == 0) color = &module_.outputs[i];
+    draw_.color_first = color->first_component;
+    draw_.color_components = color->rows;
+  }
+
+  const Bundle& bundle_;
+  const ShaderModule& module_;
+  const AttributeMode mode_;
+  BoundDraw draw_;
+};
+
+}  // namespace
+
+void BoundDraw::reset_buffers(const Bundle& bundle) {
+  for (std::size_t slot = 0; slot < buffer_bytes.size(); ++slot) {
+    const Buffer* buffer = bundle.find_buffer(buffer_names[slot]);
+    if (buffer && buffer->storage) std::copy(buffer->bytes.begin(), buffer->bytes.end(), buffer_bytes[slot].begin());
+  }
+}
+
+BoundDraw bind(const Bundle& bundle, const ShaderModule& module, AttributeMode mode) {
+  return Binder(bundle, module, mode).bind();
+}
+
+}  // namespace twinshade::tiled

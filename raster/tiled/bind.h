@@ -1,0 +1,39 @@
+// A shader module's inputs, uniforms, textures and buffers joined by name with those of a bundle.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "raster/renderer.h"
+
+namespace twinshade::tiled {
+
+enum class Interpolation : std::uint8_t { smooth, linear, flat };  // linear: noperspective
+
+struct BoundDraw {
+  // Shader inputs of all vertices, interleaved: component c of vertex v at [v * input_components + c].
+  std::vector<float> vertex_inputs;
+  std::uint32_t input_components = 0;
+  std::vector<Interpolation> interpolation;   // of each component
+  std::vector<Scalar> input_scalars;          // of each component
+  std::vector<std::string> component_names;   // "v_uv.x" ...
+
+  std::vector<std::byte> uniforms;
+  std::vector<TextureView> textures;          // their texels stay the bundle's
+  std::vector<std::vector<std::byte>> buffer_bytes;  // copies: what a shader writes is gone after the draw
+  std::vector<std::string> buffer_names;
+  std::vector<BufferView> buffers;
+
+  // The output that becomes Frame::color: of location 0, else the first declared.
+  std::uint32_t color_first = 0, color_components = 0;
+
+  // Before drawing another frame: undoes what the shader wrote.
+  void reset_buffers(const Bundle& bundle);
+  ShaderData data() const { return {uniforms.data(), textures.data(), buffers.data()}; }
+};
+
+// UserError naming what the shader asks for and what the bundle has, where they do not fit.
+BoundDraw bind(const Bundle& bundle, const ShaderModule& module, AttributeMode mode);
+
+}  // namespace twinshade::tiled

@@ -1,0 +1,191 @@
+// Which pixels a triangle covers and how deep it is there. Hierarchy: superblocks of 16 x 16 pixels in 64-bit arithmetic,
+// then blocks of 4 x 4, then pixels in 32 bits, W at a time (after Abrash, Rasterization on Larrabee, 2009).
+#pragma once
+
+#include "cpu_shaders/runtime/numbers.h"
+#include "raster/tiled/exact_kernel.h"
+#include "raster/tiled/kernels.h"
+#include "raster/tiled/native_kernel.h"
+
+namespace twinshade::tiled {
+inline namespace TWINSHADE_ISA_NAMESPACE {
+
+// x and y within a block of its 16 pixels, in memory order.
+alignas(64) inline constexpr std::int32_t kPixelX[16] = {0, 1, 0, 1, 2, 3, 2, 3, 0, 1, 0, 1, 2, 3, 2, 3};
+alignas(64) inline constexpr std::int32_t kPixelY[16] = {0, 0, 1, 1, 0, 0, 1, 1, 2, 2, 3, 3, 2, 2, 3, 3};
+alignas(64) inline constexpr std::int32_t kBlockX[16] = {0, 4, 8, 12, 0, 4, 8, 12, 0, 4, 8, 12, 0, 4, 8, 12};
+alignas(64) inline constexpr std::int32_t kBlockY[16] = {0, 0, 0, 0, 4, 4, 4, 4, 8, 8, 8, 8, 12, 12, 12, 12};
+
+// Edge values are cut off here: farther from 0 than any step within a superblock (15 * (|a| + |b|) < 2^29) can lead back.
+inline constexpr std::int64_t kEdgeLimit = std::int64_t{1} << 30;
+
+// Calls block(pixel index in the tile, x, y, inside) for each group of W pixels of which some are covered; x and y are
+// the block's lower left pixel in the frame, `group` the group's first pixel within the block.
+template <int W, class Block>
+TWINSHADE_INLINE void for_each_covered_group(const RasterTriangle& t, const CoverTile& tile, Block block) {
+  using I = Simd<std::int32_t, W>;
+  constexpr int kGroups = 16 / W;
+
+  // Steps from a superblock's first pixel to its blocks' pixels that are most inside, and from a block's to its pixels.
+  std::int64_t superblock_reach[3];
+  I block_step[3][kGroups], pixel_step[3][kGroups];
+  for (int e = 0; e < 3; ++e) {
+    const I a(t.a[e]), b(t.b[e]);
+    const std::int32_t positive_a = t.a[e] > 0 ? t.a[e] : 0, positive_b = t.b[e] > 0 ? t.b[e] : 0;
+    superblock_reach[e] = 15 * (std::int64_t(positive_a) + positive_b);
+    const I block_reach(3 * positive_a + 3 * positive_b);
+    for (int g = 0; g < kGroups; ++g) {
+      block_step[e][g] = a * I::load(kBlockX + g * W) + b * I::load(kBlockY + g * W) + block_reach;
+      pixel_step[e][g] = a * I::load(kPixelX + g * W) + b * I::load(kPixelY + g * W);
+    }
+  }
+
+  // The triangle's pixels within this tile.
+  const std::uint32_t tile_end_x = tile.x + tile.size - 1, tile_end_y = tile.y + tile.size - 1;
+  const std::uint32_t x0 = t.min_x > tile.x ? t.min_x : tile.x, x1 = t.max_x < tile_end_x ? t.max_x : tile_end_x;
+  const std::uint32_t y0 = t.min_y > tile.y ? t.min_y : tile.y, y1 = t.max_y < tile_end_y ? t.max_y : tile_end_y;
+  const std::uint32_t superblocks_a_row = tile.size / kSuperblock;
+
+  for (std::uint32_t sy = (y0 - tile.y) / kSuperblock; sy <= (y1 - tile.y) / kSuperblock; ++sy)
+    for (std::uint32_t sx = (x0 - tile.x) / kSuperblock; sx <= (x1 - tile.x) / kSuperblock; ++sx) {
+      const std::uint32_t x = tile.x + sx * kSuperblock, y = tile.y + sy * kSuperblock;
+      std::int32_t edge[3];
+      bool outside = false;
+      for (int e = 0; e < 3; ++e) {
+        const std::int64_t value = t.c[e] + std::int64_t(t.a[e]) * x + std::int64_t(t.b[e]) * y;
+        outside |= value + superblock_reach[e] < 0;
+        edge[e] = std::int32_t(value < kEdgeLimit ? value : kEdgeLimit);
+      }
+      if (outside) continue;
+
+      // Bit k: block k holds pixels of the bounding box and is not wholly outside an edge.
+      const std::uint32_t from_column = x0 > x ? (x0 - x) / 4 : 0, to_column = x1 - x < 15 ? (x1 - x) / 4 : 3;
+      const std::uint32_t from_row = y0 > y ? (y0 - y) / 4 : 0, to_row = y1 - y < 15 ? (y1 - y) / 4 : 3;
+      const std::uint32_t columns = (0xfu >> (3 - to_column) & 0xfu << from_column) * 0x1111u;
+      std::uint32_t blocks = columns & (0xffffu >> (12 - 4 * to_row)) & (0xffffu << 4 * from_row);
+      std::uint32_t maybe = 0;
+      for (int g = 0; g < kGroups; ++g) {
+        const I nearest = (I(edge[0]) + block_step[0][g]) | (I(edge[1]) + block_step[1][g]) |
+                          (I(edge[2]) + block_step[2][g]);
+        maybe |= (nearest >= I(0)).bits() << (g * W);
+      }
+      blocks &= maybe;
+
+      const std::uint32_t superblock_pixels = (sy * superblocks_a_row + sx) * kSuperblock * kSuperblock;
+      for (; blocks != 0; blocks &= blocks - 1) {
+        const std::uint32_t k = std::uint32_t(__builtin_ctz(blocks));
+        const std::int32_t block_x = kBlockX[k], block_y = kBlockY[k];
+        const std::uint32_t frame_x = x + std::uint32_t(block_x), frame_y = y + std::uint32_t(block_y);
+        I start[3];
+        for (int e = 0; e < 3; ++e) start[e] = I(edge[e] + t.a[e] * block_x + t.b[e] * block_y);
+        for (int g = 0; g < kGroups; ++g) {
+          auto inside = ((start[0] + pixel_step[0][g]) | (start[1] + pixel_step[1][g]) |
+                         (start[2] + pixel_step[2][g])) >= I(0);
+          if (frame_x + 3 >= tile.frame_width || frame_y + 3 >= tile.frame_height)
+            inside = inside & (I::load(kPixelX + g * W) < I(std::int32_t(tile.frame_width - frame_x))) &
+                     (I::load(kPixelY + g * W) < I(std::int32_t(tile.frame_height - frame_y)));
+          if (any(inside)) block(superblock_pixels + k * 16 + std::uint32_t(g * W), frame_x, frame_y, g, inside);
+        }
+      }
+    }
+}
+
+// Depth of a native triangle: the plane through its window z, evaluated as Mesa does where it has no fused multiply-add.
+template <int W>
+struct NativeDepth {
+  using F = Simd<float, W>;
+  Plane<float> plane;
+  TWINSHADE_INLINE NativeDepth(const CoverTile& tile, std::uint32_t which) {
+    const NativeTriangle& native = *tile.primitives[tile.locals[which]].native;
+    const PlaneSetup<float> setup(native);
+    plane = setup.plane(native.position[0].z, native.position[1].z, native.position[2].z);
+  }
+  TWINSHADE_INLINE F operator()(F x, F y) const {
+    const F z = plane.at(x - F(0.5f), y - F(0.5f));
+    return select(z > F(0.0f), select(z < F(1.0f), z, F(1.0f)), F(0.0f));
+  }
+};
+
+template <int W>
+struct ExactDepth {
+  using F = Simd<float, W>;
+  ExactTriangle<F> triangle;
+  float scale_x, scale_y;
+  TWINSHADE_INLINE ExactDepth(const CoverTile& tile, std::uint32_t which)
+      : triangle(*tile.vertices, tile.primitives[tile.locals[which]].primitive),
+        scale_x(tile.vertices->ndc_scale_x),
+        scale_y(tile.vertices->ndc_scale_y) {}
+  TWINSHADE_INLINE F operator()(F x, F y) const {
+    return triangle.at(x * F(scale_x) - F(1.0f), y * F(scale_y) - F(1.0f)).depth();
+  }
+};
+
+// f(first pixel, inside, depth) for the groups of triangle `which`.
+template <int W, template <int> class Depth, class Use>
+TWINSHADE_INLINE void cover_with_depth(const CoverTile& tile, std::uint32_t which, Use use) {
+  using F = Simd<float, W>;
+  using I = Simd<std::int32_t, W>;
+  const Depth<W> depth(tile, which);
+  F offset_x[16 / W], offset_y[16 / W];
+  for (int g = 0; g < 16 / W; ++g) {
+    offset_x[g] = I::load(kPixelX + g * W).template to<float>() + F(0.5f);
+    offset_y[g] = I::load(kPixelY + g * W).template to<float>() + F(0.5f);
+  }
+  for_each_covered_group<W>(*tile.triangles[which], tile,
+                            [&](std::uint32_t pixel, std::uint32_t x, std::uint32_t y, int g, SimdMask<W> inside) {
+                              use(pixel, inside, depth(F(float(x)) + offset_x[g], F(float(y)) + offset_y[g]));
+                            });
+}
+
+template <int W, template <int> class Depth>
+void cover_all(const CoverTile& tile) {
+  using F = Simd<float, W>;
+  using U = Simd<std::uint32_t, W>;
+  for (std::uint32_t which = 0; which < tile.count; ++which) {
+    const U local(tile.locals[which]);
+    cover_with_depth<W, Depth>(tile, which, [&](std::uint32_t pixel, SimdMask<W> inside, F depth) {
+      const F old = F::load(tile.depth + pixel);
+      const SimdMask<W> nearer = inside & (depth < old);
+      if (!any(nearer)) return;
+      select(nearer, depth, old).store(tile.depth + pixel);
+      select(nearer, local, U::load(tile.visible + pixel)).store(tile.visible + pixel);
+    });
+  }
+}
+
+template <int W>
+void cover(const CoverTile& tile) {
+  if (tile.count == 0) return;
+  if (tile.primitives->native) cover_all<W, NativeDepth>(tile);
+  else cover_all<W, ExactDepth>(tile);
+}
+
+template <int W, template <int> class Depth>
+std::uint32_t cover_quads(const CoverTile& tile, std::uint32_t which, bool early_depth_test, CoveredQuad* out) {
+  using F = Simd<float, W>;
+  std::uint32_t count = 0;
+  cover_with_depth<W, Depth>(tile, which, [&](std::uint32_t pixel, SimdMask<W> inside, F depth) {
+    if (early_depth_test) inside = inside & (depth < F::load(tile.depth + pixel));
+    const std::uint32_t bits = inside.bits();
+    float depths[W];
+    depth.store(depths);
+    for (int q = 0; q < W / 4; ++q) {
+      const std::uint32_t coverage = bits >> (4 * q) & 15u;
+      if (coverage == 0) continue;
+      CoveredQuad& quad = out[count++];
+      quad.quad = pixel / 4 + std::uint32_t(q);
+      quad.coverage = coverage;
+      for (int i = 0; i < 4; ++i) quad.depth[i] = depths[4 * q + i];
+    }
+  });
+  return count;
+}
+
+template <int W>
+std::uint32_t cover_one(const CoverTile& tile, std::uint32_t which, bool early_depth_test, CoveredQuad* out) {
+  return tile.primitives->native ? cover_quads<W, NativeDepth>(tile, which, early_depth_test, out)
+                                 : cover_quads<W, ExactDepth>(tile, which, early_depth_test, out);
+}
+
+}  // namespace TWINSHADE_ISA_NAMESPACE
+}  // namespace twinshade::tiled

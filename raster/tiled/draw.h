@@ -1,0 +1,115 @@
+// What is the same for all tiles of a draw, and what each worker thread has of its own.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "raster/tiled/aligned.h"
+#include "raster/tiled/geometry.h"
+#include "raster/tiled/kernels.h"
+#include "raster/tiled/stages.h"
+
+namespace twinshade::tiled {
+
+struct Draw {
+  const Bundle& bundle;
+  const ShaderModule& module;
+  const DrawOptions& options;
+  const BoundDraw& bound;
+  const ShaderEntry& entry;
+  const Kernels& kernels;
+  TileGrid grid;
+  VertexData vertices;
+  Geometry& geometry;
+  Frame& frame;
+
+  bool native() const { return options.attributes == AttributeMode::native; }
+  bool float64() const { return entry.number == Number::float64; }
+  // Shaders that decide themselves what becomes of a fragment, or whose running can be seen.
+  bool in_order() const { return module.discards || module.writes_depth || module.has_side_effects; }
+};
+
+// Quads are shaded this many at a time, whatever the size of triangles.
+inline constexpr std::uint32_t kBatchQuads = 64;
+
+// Invocations going through interpolation and the shader together.
+class Batch {
+ public:
+  explicit Batch(const Draw& draw);
+
+  std::uint32_t count() const { return count_; }
+  bool full() const { return count_ == kBatchQuads; }
+  // coverage: bit i for pixel i of the quad.
+  void add(ShadeQuad quad, std::uint32_t coverage);
+
+  // Fills inputs, runs the shader, stores nothing yet. Pads with dead quads to whole vectors first.
+  void shade(const LocalPrimitive* primitives, StageClock& clock);
+  void clear() { count_ = 0; }
+
+  std::uint32_t coverage(std::uint32_t quad) const { return coverage_[quad]; }
+  std::uint32_t local(std::uint32_t quad) const { return quads_[quad].local; }
+  // Pixels that the shader kept, of those covered.
+  std::uint32_t kept(std::uint32_t quad) const;
+  float frag_depth(std::uint32_t quad, std::uint32_t pixel) const;
+  // Colour and, where asked for, attributes of the pixels in `mask` to the frame.
+  void store(std::uint32_t quad, std::uint32_t mask) const;
+
+ private:
+  template <class R>
+  void store_as(const R* outputs, const R* inputs, std::uint32_t quad, std::uint32_t mask) const;
+
+  static constexpr std::uint32_t kStride = 4 * kBatchQuads + 16;
+
+  const Draw& draw_;
+  std::uint32_t count_ = 0;
+  ShadeQuad quads_[kBatchQuads];
+  std::uint32_t coverage_[kBatchQuads];
+  std::vector<std::uint8_t> interpolation_, scalars_;
+  // Doubles for all numbers: floats use the first half.
+  AlignedArray<double> center_x_, center_y_, inputs_, frag_coord_, outputs_, frag_depth_;
+  AlignedArray<std::uint32_t> live_, front_facing_, primitive_id_, kept_;
+};
+
+// One worker's tile.
+class TileWorker {
+ public:
+  explicit TileWorker(const Draw& draw);
+  void draw_tile(std::uint32_t tile);
+  StageClock& clock() { return clock_; }
+  std::uint32_t tiles_shaded() const { return tiles_shaded_; }
+
+ private:
+  struct VisibleQuad {
+    std::uint32_t local;
+    std::uint16_t quad;      // index in the tile's memory / 4
+    std::uint16_t coverage;
+  };
+
+  void gather_triangles(std::uint32_t tile);
+  void shade_visible();          // shade_pass.cpp
+  void collect_visible_quads();
+  void shade_in_order();         // in_order_pass.cpp
+  void resolve_in_order();
+  void store_tile();
+
+  ShadeQuad place(std::uint32_t tile_quad, std::uint32_t local) const;
+
+  const Draw& draw_;
+  Batch batch_;
+  StageClock clock_;
+  std::uint32_t tiles_shaded_ = 0;
+
+  CoverTile tile_{};
+  AlignedArray<float> depth_;
+  AlignedArray<std::uint32_t> visible_;
+  std::vector<const RasterTriangle*> triangles_;
+  std::vector<std::uint32_t> locals_;
+  std::vector<LocalPrimitive> primitives_;
+
+  std::vector<VisibleQuad> found_, sorted_;     // shade_pass.cpp
+  std::vector<std::uint32_t> place_of_local_;
+  std::vector<CoveredQuad> covered_;            // in_order_pass.cpp
+  std::vector<CoveredQuad> batch_quads_;
+};
+
+}  // namespace twinshade::tiled

@@ -1,0 +1,59 @@
+#include "raster/tiled/entry.h"
+
+#include <string>
+
+#include "base/error.h"
+
+namespace twinshade::tiled {
+namespace {
+
+const ShaderEntry* find_entry(const ShaderModule& module, Number number, Isa most) {
+  const ShaderEntry* best = nullptr;
+  for (std::uint32_t i = 0; i < module.entry_count; ++i) {
+    const ShaderEntry& entry = module.entries[i];
+    if (entry.number == number && entry.isa <= most && (!best || entry.isa > best->isa)) best = &entry;
+  }
+  return best;
+}
+
+}  // namespace
+
+const char* isa_name(Isa isa) {
+  static constexpr const char* kNames[] = {"baseline", "avx2", "avx512"};
+  return kNames[int(isa)];
+}
+
+const char* number_name(Number number) {
+  static constexpr const char* kNames[] = {"lanes4", "lanes8", "lanes16", "scalar", "float64"};
+  return kNames[int(number)];
+}
+
+Isa machine_isa() {
+#if defined(__x86_64__)
+  __builtin_cpu_init();
+  const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
+  const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+                      __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+                      __builtin_cpu_supports("avx512vl");
+  if (avx2) return avx512 ? Isa::avx512 : Isa::avx2;
+#endif
+  return Isa::baseline;
+}
+
+const ShaderEntry& choose_entry(const ShaderModule& module, Number number, std::optional<Isa> isa) {
+  const Isa machine = machine_isa();
+  if (isa && *isa > machine)
+    throw UserError(std::string("this processor has no ") + isa_name(*isa) + ": the best it has is " + isa_name(machine));
+  const ShaderEntry* entry = find_entry(module, number, isa.value_or(machine));
+  if (!isa && number == Number::lanes16 && machine == Isa::avx2) {
+    const ShaderEntry* natural = find_entry(module, Number::lanes8, machine);
+    if (natural && (!entry || natural->isa > entry->isa)) entry = natural;
+  }
+  if (entry) return *entry;
+  std::string reason = std::string("shader \"") + module.name + "\" has no code for " + number_name(number);
+  if (isa) reason += std::string(" on ") + isa_name(*isa);
+  if (number == Number::float64 && module.no_float64_reason) reason += std::string(": ") + module.no_float64_reason;
+  throw UserError(reason);
+}
+
+}  // namespace twinshade::tiled

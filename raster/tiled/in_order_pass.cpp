@@ -1,0 +1,53 @@
+// Shaders that discard, write gl_FragDepth or have side effects: each covered quad is shaded, in primitive order, before the
+// depth test decides. Batches hold quads of several triangles; the depth test then goes through them in order.
+#include "cpu_shaders/runtime/denormals.h"
+#include "raster/tiled/draw.h"
+
+namespace twinshade::tiled {
+
+void TileWorker::shade_in_order() {
+  // A fragment that is hidden now stays hidden, since depth only decreases: it need not run, if nobody can tell.
+  const bool early_depth_test = !draw_.module.writes_depth && !draw_.module.has_side_effects;
+  batch_quads_.resize(kBatchQuads);
+  covered_.resize(std::size_t(tile_.size) * tile_.size / 4);
+  for (std::uint32_t which = 0; which < tile_.count; ++which) {
+    std::uint32_t count;
+    {
+      const FlushDenormals flush;
+      count = draw_.kernels.cover_one(tile_, which, early_depth_test, covered_.data());
+    }
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const CoveredQuad& quad = covered_[i];
+      batch_quads_[batch_.count()] = quad;
+      batch_.add(place(quad.quad, tile_.locals[which]), quad.coverage);
+      if (!batch_.full()) continue;
+      clock_.lap(Stage::raster);
+      resolve_in_order();
+    }
+  }
+  clock_.lap(Stage::raster);
+  if (batch_.count() > 0) resolve_in_order();
+}
+
+void TileWorker::resolve_in_order() {
+  batch_.shade(primitives_.data(), clock_);
+  for (std::uint32_t q = 0; q < batch_.count(); ++q) {
+    const CoveredQuad& quad = batch_quads_[q];
+    const std::uint32_t kept = batch_.kept(q);
+    std::uint32_t nearer = 0;
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      if (!(kept >> i & 1)) continue;
+      const std::uint32_t pixel = 4 * quad.quad + i;
+      const float depth = draw_.module.writes_depth ? batch_.frag_depth(q, i) : quad.depth[i];
+      if (!(depth < tile_.depth[pixel])) continue;
+      tile_.depth[pixel] = depth;
+      tile_.visible[pixel] = batch_.local(q);
+      nearer |= 1u << i;
+    }
+    if (nearer) batch_.store(q, nearer);
+  }
+  batch_.clear();
+  clock_.lap(Stage::store);
+}
+
+}  // namespace twinshade::tiled

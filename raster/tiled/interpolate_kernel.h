@@ -1,0 +1,142 @@
+// Shader inputs of quads. Quads of one primitive follow each other, so its vertex data is broadcast; runs are written in
+// order in whole vectors, each run's last one spilling into the next run's place before that is written.
+#pragma once
+
+#include "raster/tiled/exact_kernel.h"
+#include "raster/tiled/kernels.h"
+#include "raster/tiled/native_kernel.h"
+
+namespace twinshade::tiled {
+inline namespace TWINSHADE_ISA_NAMESPACE {
+
+inline constexpr std::uint8_t kSmooth = 0, kLinear = 1;  // as enum Interpolation
+
+// An input that does not vary over the primitive, as the shader's number holds it: an integer's bits, or its value in double.
+template <class R>
+TWINSHADE_INLINE R flat_value(float stored, std::uint8_t scalar) {
+  if constexpr (sizeof(R) == sizeof(float)) {
+    return stored;
+  } else {
+    if (scalar == std::uint8_t(Scalar::f32)) return R(stored);
+    if (scalar == std::uint8_t(Scalar::i32)) return R(number::bits<std::int32_t>(stored));
+    return R(number::bits<std::uint32_t>(stored));
+  }
+}
+
+template <class F>
+class QuadInterpolator {
+  using R = typename F::element;
+  using U = typename F::template with<std::uint32_t>;
+  static constexpr std::uint32_t kWidth = F::width;
+
+ public:
+  TWINSHADE_INLINE explicit QuadInterpolator(const InterpolateQuads& call)
+      : call_(call),
+        center_x_(static_cast<R*>(call.center_x)),
+        center_y_(static_cast<R*>(call.center_y)),
+        inputs_(static_cast<R*>(call.inputs)),
+        frag_coord_(static_cast<R*>(call.frag_coord)) {}
+
+  TWINSHADE_INLINE void run() {
+    for (std::uint32_t q = 0; q < call_.count; ++q) {
+      const R x = R(call_.quads[q].x) + R(0.5), y = R(call_.quads[q].y) + R(0.5);
+      for (std::uint32_t i = 0; i < 4; ++i) {
+        center_x_[4 * q + i] = x + R(i & 1);
+        center_y_[4 * q + i] = y + R(i >> 1);
+      }
+    }
+    for (std::uint32_t i = 4 * call_.count; i < 4 * call_.count + 16; ++i) {
+      center_x_[i] = R(0.5);
+      center_y_[i] = R(0.5);
+    }
+    for (std::uint32_t begin = 0; begin < call_.count;) {
+      std::uint32_t end = begin + 1;
+      while (end < call_.count && call_.quads[end].local == call_.quads[begin].local) ++end;
+      const LocalPrimitive& primitive = call_.primitives[call_.quads[begin].local];
+      if (call_.native) native(primitive, 4 * begin, 4 * end);
+      else exact(primitive, 4 * begin, 4 * end);
+      begin = end;
+    }
+    if (frag_coord_)
+      for (std::uint32_t i = 0; i < 4 * call_.count; ++i) {
+        frag_coord_[i] = center_x_[i];
+        frag_coord_[call_.stride + i] = center_y_[i];
+      }
+  }
+
+ private:
+  TWINSHADE_INLINE void exact(const LocalPrimitive& primitive, std::uint32_t begin, std::uint32_t end) {
+    const VertexData& vertices = *call_.vertices;
+    const ExactTriangle<F> triangle(vertices, primitive.primitive);
+    const std::uint32_t* index = vertices.indices + std::size_t(primitive.primitive) * 3;
+    const float* row[3];
+    for (int v = 0; v < 3; ++v) row[v] = vertices.inputs + std::size_t(index[v]) * vertices.input_components;
+    for (std::uint32_t i = begin; i < end; i += kWidth) {
+      const F x = F::load(center_x_ + i), y = F::load(center_y_ + i);
+      const ExactPoint<F> p = triangle.at(x * F(R(vertices.ndc_scale_x)) - F(R(1)), y * F(R(vertices.ndc_scale_y)) - F(R(1)));
+      const F r = F(R(1)) / p.sum;
+      const F weight0 = p.e0 * r, weight1 = p.e1 * r, weight2 = p.e2 * r;
+      for (std::uint32_t c = 0; c < vertices.input_components; ++c) {
+        const F value = call_.interpolation[c] == kSmooth
+                            ? (F(R(row[0][c])) * weight0 + F(R(row[1][c])) * weight1) + F(R(row[2][c])) * weight2
+                            : F(flat_value<R>(row[2][c], call_.scalars[c]));
+        value.store(inputs_ + std::size_t(c) * call_.stride + i);
+      }
+      if (frag_coord_) {
+        p.depth().store(frag_coord_ + 2 * std::size_t(call_.stride) + i);
+        p.reciprocal_w().store(frag_coord_ + 3 * std::size_t(call_.stride) + i);
+      }
+      if (call_.front_facing) select(p.w > F(R(0)), U(~0u), U(0u)).store(call_.front_facing + i);
+    }
+  }
+
+  TWINSHADE_INLINE void native(const LocalPrimitive& primitive, std::uint32_t begin, std::uint32_t end) {
+    const VertexData& vertices = *call_.vertices;
+    const PlaneSetup<R> setup(*primitive.native);
+    const Plane<R> reciprocal_w = setup.plane_of_reciprocal_w();
+    const float* row[3];
+    for (int v = 0; v < 3; ++v) row[v] = native_inputs(primitive, vertices, v);
+    // Flat inputs are those of the primitive's own last vertex, whatever clipping made of it.
+    const std::uint32_t last = vertices.indices[std::size_t(primitive.primitive) * 3 + 2];
+    const float* flat = vertices.inputs + std::size_t(last) * vertices.input_components;
+
+    for (std::uint32_t c = 0; c < vertices.input_components; ++c) {
+      const R a0(row[0][c]), a1(row[1][c]), a2(row[2][c]);
+      const std::uint8_t how = call_.interpolation[c];
+      const Plane<R> plane = how == kSmooth ? setup.plane_over_w(a0, a1, a2) : setup.plane(a0, a1, a2);
+      const R constant = flat_value<R>(flat[c], call_.scalars[c]);
+      for (std::uint32_t i = begin; i < end; i += kWidth) {
+        const F x = F::load(center_x_ + i) - F(R(0.5)), y = F::load(center_y_ + i) - F(R(0.5));
+        F value;
+        if (how == kSmooth) value = plane.at(x, y) * (F(R(1)) / reciprocal_w.at(x, y));
+        else if (how == kLinear) value = plane.at(x, y);
+        else value = F(constant);
+        value.store(inputs_ + std::size_t(c) * call_.stride + i);
+      }
+    }
+    const WindowPosition* p = primitive.native->position;
+    const Plane<R> depth = setup.plane(R(p[0].z), R(p[1].z), R(p[2].z));
+    for (std::uint32_t i = begin; i < end; i += kWidth) {
+      const F x = F::load(center_x_ + i) - F(R(0.5)), y = F::load(center_y_ + i) - F(R(0.5));
+      if (frag_coord_) {
+        depth.at(x, y).store(frag_coord_ + 2 * std::size_t(call_.stride) + i);
+        reciprocal_w.at(x, y).store(frag_coord_ + 3 * std::size_t(call_.stride) + i);
+      }
+      if (call_.front_facing) U(primitive.front_facing).store(call_.front_facing + i);
+    }
+  }
+
+  const InterpolateQuads& call_;
+  R* const center_x_;
+  R* const center_y_;
+  R* const inputs_;
+  R* const frag_coord_;
+};
+
+template <class F>
+void interpolate(const InterpolateQuads& call) {
+  QuadInterpolator<F>(call).run();
+}
+
+}  // namespace TWINSHADE_ISA_NAMESPACE
+}  // namespace twinshade::tiled

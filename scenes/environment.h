@@ -1,5 +1,5 @@
-// Distant light: lat-long radiance, OpenEXR's orientation (Y up, row 0 at the zenith, longitude pi at the left edge to -pi at
-// the right; direction = (sin(lon) cos(lat), sin(lat), cos(lon) cos(lat))).
+// Distant light: lat-long radiance, OpenEXR's orientation (Y up, row 0 at the zenith, longitude pi at the left edge to
+// -pi at the right; direction = (sin(lon) cos(lat), sin(lat), cos(lon) cos(lat))).
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,8 @@ struct Environment {
   std::uint32_t width = 0, height = 0;
   std::vector<glm::vec3> radiance;  // row-major, row 0 at the zenith
 
-  // Radiance towards `direction` (unit, world space): bilinear between pixel centres, wrapped in longitude, clamped in latitude.
+  // Radiance towards `direction` (unit, world space): bilinear between pixel centres, wrapped in longitude, clamped in
+  // latitude.
   glm::dvec3 radiance_towards(const glm::dvec3& direction) const;
   // Exact solid angle of a pixel of row y: (2 pi / width) * (sin(lat_top) - sin(lat_bottom)).
   double pixel_solid_angle(std::uint32_t y) const;
@@ -22,9 +23,9 @@ struct Environment {
   glm::dvec3 pixel_direction(std::uint32_t x, std::uint32_t y) const;
 };
 
-// "sky", "studio", "window", "constant", or a .hdr/.exr file. UserError: unknown name (nearest suggested), unreadable or
-// truncated file, NaN, infinite or negative radiance (naming the pixel; clamp_radiance replaces NaN and negatives by 0 and
-// infinities by the largest finite value instead).
+// "sky", "studio", "window", "constant", or a .hdr/.exr file. UserError: unknown name (nearest suggested), unreadable
+// or truncated file, NaN, infinite or negative radiance (naming the pixel; clamp_radiance replaces NaN and negatives by
+// 0 and infinities by the largest finite value instead).
 Environment load_environment(const std::string& name_or_path, bool clamp_radiance = false);
 // Rotated about Y, counter-clockwise seen from above, by resampling on lookup: same size.
 Environment rotate_environment(const Environment& environment, double degrees);

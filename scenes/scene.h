@@ -16,9 +16,10 @@ struct Image {
 
 struct Material {
   std::string name;
-  glm::vec3 albedo{0.8f};   // linear; multiplies the albedo image
-  int albedo_image = -1;    // into Scene::images; linear RGB (already decoded from sRGB); -1: none
-  int normal_image = -1;    // into Scene::images; unit tangent-space normals (x along the tangent, y bitangent, z out), decoded
+  glm::vec3 albedo{0.8f};  // linear; multiplies the albedo image
+  int albedo_image = -1;   // into Scene::images; linear RGB (already decoded from sRGB); -1: none
+  int normal_image =
+      -1;  // into Scene::images; unit tangent-space normals (x along the tangent, y bitangent, z out), decoded
 };
 
 struct Camera {
@@ -30,8 +31,9 @@ struct Camera {
 struct Scene {
   std::string name;
   std::vector<glm::vec3> positions;
-  std::vector<glm::vec3> normals;       // unit
-  std::vector<glm::vec4> tangents;      // xyz unit, orthogonal to the normal; w = +1 or -1: bitangent = w * cross(normal, tangent)
+  std::vector<glm::vec3> normals;  // unit
+  std::vector<glm::vec4>
+      tangents;  // xyz unit, orthogonal to the normal; w = +1 or -1: bitangent = w * cross(normal, tangent)
   std::vector<glm::vec2> uvs;           // material images, repeat; zeros where the model has none
   std::vector<glm::vec2> lightmap_uvs;  // in [0, 1], non-overlapping; empty: light is baked per vertex
   std::vector<std::uint32_t> indices;   // 3 a triangle, counter-clockwise outside
@@ -41,7 +43,8 @@ struct Scene {
   Camera camera;
   bool has_uvs = true;
 
-  // raster_torture and raster_invalid only: positions are given in clip space (4 floats a vertex) and replace the camera's.
+  // raster_torture and raster_invalid only: positions are given in clip space (4 floats a vertex) and replace the
+  // camera's.
   std::vector<glm::vec4> clip_positions;
   bool procedural_coefficients = false;  // light is not baked; coefficients are smooth functions of the vertex
 

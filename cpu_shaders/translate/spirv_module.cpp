@@ -19,6 +19,7 @@ class Parser {
   explicit Parser(const std::vector<std::uint32_t>& words) : words_(words) {}
 
   Module run() {
+    module_.bound = word(3);
     for (std::size_t at = 5; at < words_.size();) {
       const std::size_t length = words_[at] >> 16;
       TWINSHADE_CHECK_LT(0u, length);

@@ -108,6 +108,7 @@ struct Module {
   std::vector<Id> globals;                 // in order of declaration
   std::vector<Function> functions;
   Id entry = 0;
+  Id bound = 0;  // every id is smaller
   bool depth_replacing = false, early_tests = false;
 
   const Type& type(Id id) const { return types.at(id); }
@@ -119,6 +120,8 @@ struct Module {
   Position position(const Instruction& i) const { return position(i.file, i.line); }
   const Decorations& decorations_of(Id id) const;
   const Decorations& member(Id structure, std::uint32_t index) const;
+
+  Id new_id() { return bound++; }
 
   // Number of scalars in a type.
   std::uint32_t component_count(Id type) const;

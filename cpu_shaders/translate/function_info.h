@@ -1,0 +1,61 @@
+// What a function reads, writes and calls: facts that hold however it is called.
+#pragma once
+
+#include <map>
+#include <set>
+#include <unordered_map>
+
+#include "cpu_shaders/translate/structure.h"
+
+namespace twinshade::spirv {
+
+struct FunctionInfo {
+  Function* function = nullptr;
+  Body body;
+
+  std::unordered_map<Id, const Instruction*> definitions;
+  std::unordered_map<Id, int> uses;  // of values and pointers, by instructions, conditions and returns
+  std::vector<Id> locals;            // variables, in order of first use
+
+  // Parameters that are pointers (glslang passes all but `const in` so): by index.
+  std::set<std::size_t> written_parameters;     // the function stores through it
+  std::set<std::size_t> read_first_parameters;  // its value on entry matters
+  std::set<std::size_t> returned_parameters;    // some caller reads it after the call: out or inout
+  bool is_reference(std::size_t parameter) const {
+    return written_parameters.count(parameter) && returned_parameters.count(parameter);
+  }
+
+  std::set<Id> globals_read, globals_written;  // private and output variables, callees' included
+  bool discards = false, writes_buffers = false, reads_buffers = false, uses_derivatives = false;
+
+  // Local variables that are stored once, whole, with a constant, and only read: constant tables.
+  std::map<Id, Id> constant_tables;
+  // Local variables made to pass an argument that the function does not give back: the value stands for them.
+  std::set<Id> argument_temporaries;
+
+  // A call can stand anywhere in an expression.
+  bool pure() const;
+};
+
+// The variable or parameter that a pointer points into.
+Id root_of(const FunctionInfo& info, Id pointer);
+
+struct Program {
+  Module module;
+  std::map<Id, FunctionInfo> functions;
+  std::vector<Id> callees_first;  // reachable from main, main last
+
+  const FunctionInfo& info(Id function) const { return functions.at(function); }
+};
+
+// Structures every reachable function, folds conditional expressions and gathers the facts, liveness included.
+Program analyse(Module module);
+
+// Turns  if (c) t = a; else t = b;  with pure a and b into t = select(c, a, b), where t is glslang's own temporary (the
+// form that ?:, && and || arrive in), and two pure returns into one.
+void fold_conditionals(Module& module, Body& body);
+
+// Fills the live_* sets of the tree.
+void compute_liveness(Program& program, FunctionInfo& info);
+
+}  // namespace twinshade::spirv

@@ -19,8 +19,8 @@ constexpr std::array<const char*, 2> kAttributeModeNames{"exact", "native"};
 constexpr std::array<const char*, 3> kTonemapNames{"none", "reinhard", "aces"};
 
 constexpr std::uint32_t kLargestFrame = 16384;
-constexpr std::uint32_t kLargestLightmap = 8192;
-constexpr std::uint32_t kMostRays = 1 << 20;
+constexpr std::uint32_t kLargestLightmap = 4096;
+constexpr std::uint32_t kMostRays = 65536;
 constexpr int kMostThreads = 1024;
 
 // Index of `value` in `names`; UserError with the nearest ones where there is none.

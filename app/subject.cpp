@@ -43,10 +43,10 @@ std::vector<const TechniqueInfo*> techniques_whose_coefficients_are_read(const s
   return read;
 }
 
+// make_bundle leaves a note. A bundle without one has no coefficients, whose storage then does not matter.
 CoefficientStorage storage_of(const Bundle& bundle) {
-  for (const Texture& texture : bundle.textures)
-    if (texture.name.rfind(kCoefficients, 0) == 0) return CoefficientStorage::lightmap;
-  return CoefficientStorage::vertex;
+  const std::string* note = bundle.find_note("coefficients");
+  return note && *note == "vertex" ? CoefficientStorage::vertex : CoefficientStorage::lightmap;
 }
 
 Bundle bundle_from_file(const SubjectOptions& options) {
@@ -67,6 +67,7 @@ Bundle bundle_from_scene(const SubjectOptions& options, const std::vector<const 
   bake.lightmap_size = options.lightmap_size;
   bake.rays = options.rays;
   bake.seed = common.seed;
+  bake.show_progress = !common.quiet;
   const LightBake light = bake_light(scene, environment, bake);
 
   FrameOptions frame;

@@ -1,0 +1,211 @@
+// Whatever is wrong with what the user gives: one clear line on stderr, exit code 2, no partial file.
+#include <OpenImageIO/imageio.h>
+#include <unistd.h>
+
+#include <doctest/doctest.h>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "run_twinshade.h"
+
+namespace twinshade {
+namespace {
+
+void check_refused(const std::vector<std::string>& arguments, const std::vector<std::string>& said) {
+  const Run run = run_twinshade(arguments);
+  std::string command = "twinshade";
+  for (const std::string& argument : arguments) command += " " + argument;
+  INFO(command);
+  INFO(run.err);
+  CHECK(run.code == 2);
+  CHECK(run.out.empty());
+  CHECK(run.err.rfind("twinshade: ", 0) == 0);
+  CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
+  for (const std::string& words : said) {
+    CAPTURE(words);
+    CHECK(run.err.find(words) != std::string::npos);
+  }
+}
+
+// A lat-long picture of ones with one odd texel, as EXR.
+std::string environment_with(const Folder& folder, const std::string& name, float odd, int x, int y) {
+  constexpr int kWidth = 8, kHeight = 4;
+  std::vector<float> texels(kWidth * kHeight * 3, 1.0f);
+  texels[(y * kWidth + x) * 3 + 1] = odd;
+  const std::string path = folder / name;
+  auto out = OIIO::ImageOutput::create(path);
+  REQUIRE(out);
+  REQUIRE(out->open(path, OIIO::ImageSpec(kWidth, kHeight, 3, OIIO::TypeDesc::FLOAT)));
+  REQUIRE(out->write_image(OIIO::TypeDesc::FLOAT, texels.data()));
+  REQUIRE(out->close());
+  return path;
+}
+
+std::string content_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace
+
+TEST_CASE("frames without pixels, or over 16384, are refused") {
+  for (const char* size : {"0x10", "10x0", "16385x10", "10x16385", "-1x5", "10", "axb", "10x10x10", "1e3x10", ""}) {
+    CAPTURE(size);
+    check_refused({"render", "quad", "--size", size}, {"--size", "1 to 16384"});
+    check_refused({"compare", "quad", "--size", size}, {"--size", "1 to 16384"});
+  }
+}
+
+TEST_CASE("unknown names are refused, with the nearest known ones") {
+  check_refused({"render", "quad", "--technique", "h5"}, {"h5", "h4", "h6"});
+  check_refused({"compare", "quad", "--technique", "h4,sh33"}, {"sh33", "sh3"});
+  check_refused({"render", "quad", "--env", "skyy"}, {"skyy", "sky"});
+  check_refused({"render", "courtyrd"}, {"courtyrd", "courtyard"});
+  check_refused({"compare", "quad", "--on", "cpu,elg"}, {"elg", "egl"});
+  check_refused({"render", "quad", "--on", "gpu"}, {"gpu", "cpu"});
+  check_refused({"rendr"}, {"rendr", "render"});
+  check_refused({"list", "technique"}, {"technique", "techniques"});
+  check_refused({"translate", "h7"}, {"h7", "h4"});
+  check_refused({"render", "quad", "--tonemap", "rheinhard"}, {"rheinhard", "reinhard"});
+  check_refused({"render", "quad", "--number", "lanes5"}, {"lanes5", "lanes4"});
+}
+
+TEST_CASE("malformed options are refused") {
+  check_refused({}, {"--help"});
+  check_refused({"render", "quad", "--colour", "blue"}, {"--colour"});
+  check_refused({"render", "quad", "spheres"}, {"spheres"});
+  check_refused({"bake", "quad"}, {"--output"});
+  check_refused({"render", "quad", "--threads", "0"}, {"--threads", "1 to 1024"});
+  check_refused({"render", "quad", "--threads", "two"}, {"--threads"});
+  check_refused({"render", "quad", "--seed", "-1"}, {"--seed"});
+  check_refused({"render", "quad", "--tile", "48"}, {"--tile", "16, 32, 64 or 128"});
+  check_refused({"render", "quad", "--lanes", "32"}, {"--lanes", "4, 8 or 16"});
+  check_refused({"render", "quad", "--lanes", "4", "--number", "scalar"}, {"--lanes", "--number"});
+  check_refused({"render", "quad", "--lightmap", "0"}, {"--lightmap"});
+  check_refused({"render", "quad", "--rays", "0"}, {"--rays"});
+  check_refused({"render", "quad", "--albedo", "yes"}, {"--albedo", "on or off"});
+  check_refused({"render", "quad", "--exposure", "nan"}, {"--exposure", "finite"});
+  check_refused({"render", "quad", "--env-rotation", "east"}, {"--env-rotation"});
+  check_refused({"render", "quad", "--camera", "1,2,3"}, {"--camera", "seven numbers"});
+  check_refused({"render", "quad", "--camera", "0,0,0,0,0,0,50"}, {"--camera", "same point"});
+  check_refused({"render", "quad", "--camera", "0,0,5,0,0,0,180"}, {"--camera", "field of view"});
+  check_refused({"render", "quad", "--attributes", "rough"}, {"rough", "exact, native"});
+  check_refused({"render", "quad", "--technique", "all"}, {"--technique"});
+  check_refused({"compare", "quad", "--on", "cpu"}, {"at least two"});
+  check_refused({"compare", "quad", "--on", "cpu,cpu"}, {"twice"});
+  check_refused({"compare", "quad", "--on", "softpipe,cpu"}, {"cpu first"});
+}
+
+TEST_CASE("missing and truncated models are refused by name") {
+  const Folder folder;
+  check_refused({"render", folder / "none.gltf"}, {"none.gltf"});
+  check_refused({"render", folder.file("cut.glb", std::string("glTF\x02\x00\x00\x00\xff\x00\x00\x00", 12))},
+                {"cut.glb"});
+  check_refused({"render", folder.file("cut.gltf", "{\"asset\": {\"version\"")}, {"cut.gltf"});
+  check_refused({"render", folder.file("empty.obj", "")}, {"empty.obj"});
+  check_refused({"render", folder.file("model.xyz", "solid")}, {"model.xyz"});
+}
+
+TEST_CASE("damaged bundles are refused by name") {
+  const Folder folder;
+  const std::string good = folder / "good.bundle";
+  const Run bake = run_twinshade(small_quad({"bake"}, {"--technique", "lightmap", "-o", good}));
+  REQUIRE_MESSAGE(bake.code == 0, bake.err);
+  std::string bytes = content_of(good);
+  check_refused({"render", folder.file("cut.bundle", bytes.substr(0, bytes.size() / 2)), "--technique", "lightmap"},
+                {"cut.bundle"});
+  bytes[bytes.size() / 2] ^= 1;
+  check_refused({"render", folder.file("flipped.bundle", bytes), "--technique", "lightmap"}, {"flipped.bundle"});
+}
+
+TEST_CASE("options that would change a bundle are refused, not ignored") {
+  const Folder folder;
+  const std::string bundle = folder / "b.bundle";
+  REQUIRE(run_twinshade(small_quad({"bake"}, {"--technique", "lightmap", "-o", bundle})).code == 0);
+  check_refused({"render", bundle, "--technique", "lightmap", "--size", "10x10"}, {"--size", "bake"});
+  check_refused({"render", bundle, "--technique", "lightmap", "--env", "sky"}, {"--env", "bake"});
+}
+
+TEST_CASE("environments with NaN, infinite or negative radiance name the pixel, and are taken clamped if asked") {
+  const Folder folder;
+  const float infinity = std::numeric_limits<float>::infinity();
+  const std::vector<std::pair<std::string, float>> odd{
+      {"nan.exr", NAN}, {"inf.exr", infinity}, {"negative.exr", -1.0f}};
+  for (const auto& [name, value] : odd) {
+    const std::string path = environment_with(folder, name, value, 5, 2);
+    check_refused(small_quad({"render"}, {"--env", path}), {name, "5", "2", "--clamp-radiance"});
+    const Run clamped = run_twinshade(small_quad({"render"}, {"--env", path, "--clamp-radiance"}));
+    INFO(clamped.err);
+    CHECK(clamped.code == 0);
+  }
+}
+
+TEST_CASE("missing and truncated environment pictures are refused by name") {
+  const Folder folder;
+  const std::string whole = content_of(environment_with(folder, "whole.exr", 2.0f, 0, 0));
+  check_refused({"render", "quad", "--env", folder / "none.hdr"}, {"none.hdr"});
+  check_refused({"render", "quad", "--env", folder.file("cut.exr", whole.substr(0, whole.size() / 2))}, {"cut.exr"});
+  check_refused({"render", "quad", "--env", folder.file("text.hdr", "not a picture")}, {"text.hdr"});
+}
+
+TEST_CASE("bad GLSL is refused with the file and line of the include that is wrong") {
+  const Folder folder;
+  folder.file("part.glsl", "float half_of(float x) {\n  return x * half;\n}\n");
+  const std::string main = folder.file(
+      "main.frag",
+      "#include \"part.glsl\"\nin vec2 v_uv;\nout vec4 color;\nvoid main() { color = vec4(half_of(v_uv.x)); }\n");
+  check_refused(small_quad({"render"}, {"--shader", main}), {"part.glsl:2"});
+  check_refused({"translate", main}, {"part.glsl:2"});
+  const std::string missing =
+      folder.file("missing.frag", "out vec4 color;\n#include \"nowhere.glsl\"\nvoid main() {}\n");
+  check_refused({"translate", missing}, {"missing.frag:2", "nowhere.glsl"});
+  check_refused({"render", "quad", "--shader", folder / "none.frag"}, {"none.frag"});
+}
+
+TEST_CASE("a shader that reads what the scene does not have is refused, naming it") {
+  const Folder folder;
+  const std::string shader =
+      folder.file("wants.frag", "in vec2 v_warp;\nout vec4 color;\nvoid main() { color = vec4(v_warp, 0.0, 1.0); }\n");
+  check_refused(small_quad({"render"}, {"--shader", shader}), {"v_warp"});
+  check_refused(small_quad({"compare"}, {"--shader", shader, "--on", "cpu,egl"}), {"v_warp"});
+}
+
+TEST_CASE("outputs that cannot be written are refused before anything is drawn") {
+  const Folder folder;
+  check_refused(small_quad({"render"}, {"-o", "/nonexistent/x.exr"}), {"/nonexistent"});
+  check_refused(small_quad({"bake"}, {"-o", "/nonexistent/x.bundle"}), {"/nonexistent"});
+  check_refused(small_quad({"render"}, {"--json", "/nonexistent/x.json"}), {"/nonexistent"});
+  check_refused({"translate", "h4", "-o", "/nonexistent/x.cpp"}, {"/nonexistent"});
+  check_refused(small_quad({"render"}, {"-o", folder / "x.bmp"}), {"x.bmp", ".exr, .hdr or .png"});
+  check_refused(small_quad({"render"}, {"-o", folder / ""}), {".exr, .hdr or .png"});
+  std::filesystem::create_directories(folder / "taken.exr");
+  check_refused(small_quad({"render"}, {"-o", folder / "taken.exr"}), {"taken.exr", "folder"});
+  check_refused(small_quad({"compare"}, {"-o", folder.file("file", "x")}), {"file"});
+  CHECK(folder.names() == std::vector<std::string>{"file", "taken.exr"});
+}
+
+TEST_CASE("a folder without permission is refused") {
+  if (::geteuid() == 0) {
+    MESSAGE("not tested: root may write everywhere");
+    return;
+  }
+  const Folder folder;
+  std::filesystem::create_directories(folder / "shut");
+  std::filesystem::permissions(folder / "shut",
+                               std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+  check_refused(small_quad({"render"}, {"-o", folder / "shut/x.exr"}), {"shut"});
+}
+
+TEST_CASE("a refusal after drawing has begun leaves no partial file") {
+  const Folder folder, output;
+  const std::string shader =
+      folder.file("wants.frag", "in vec2 v_warp;\nout vec4 color;\nvoid main() { color = vec4(v_warp, 0.0, 1.0); }\n");
+  check_refused(small_quad({"render"}, {"--shader", shader, "-o", output / "x.exr", "--json", output / "x.json"}),
+                {"v_warp"});
+  CHECK(output.names().empty());
+}
+
+}  // namespace twinshade

@@ -1,0 +1,169 @@
+// What compare says, in numbers, in JSON and by its exit code.
+#include <doctest/doctest.h>
+#include <algorithm>
+
+#include "run_twinshade.h"
+
+namespace twinshade {
+namespace {
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
+  return text;
+}
+
+void check_equal(const nlohmann::json& report) {
+  REQUIRE(report["results"].size() > 0);
+  for (const auto& result : report["results"]) {
+    CAPTURE(result.dump());
+    REQUIRE_FALSE(result.contains("error"));
+    CHECK(result["shaded_pixels"].get<int>() > 0);
+    for (const char* count :
+         {"coverage_differs", "id_differs", "depth_differs", "attributes_differ", "pixels_differ", "max_ulp"})
+      CHECK(result[count] == 0);
+    CHECK(result["first_difference"].is_null());
+    CHECK(result["a_frame"] == result["b_frame"]);
+    CHECK(result["map"].is_null());
+  }
+}
+
+}  // namespace
+
+TEST_CASE("every technique draws the same bits on the CPU and on OpenGL") {
+  const std::vector<std::string> opengl = opengl_backends();
+  if (opengl.empty()) return;
+  const Run run = run_twinshade(small_quad({"compare"}, {"--on", "cpu," + joined(opengl), "--json", "-"}));
+  INFO(run.err);
+  CHECK(run.code == 0);
+  const auto report = run.json();
+  check_equal(report);
+  const auto techniques = run_twinshade({"list", "techniques", "--json", "-"}).json()["techniques"];
+  CHECK(report["results"].size() + report["skipped"].size() * opengl.size() == techniques.size() * opengl.size());
+  for (const char* key : {"processor", "compiler", "flags", "shaders", "bundle", "seed", "backends"}) {
+    CAPTURE(key);
+    CHECK(report["provenance"].contains(key));
+  }
+  for (const std::string& backend : opengl) {
+    CHECK(report["provenance"]["backends"][backend].contains("GL_RENDERER"));
+    CHECK(report["provenance"]["backends"][backend].contains("GL_VERSION"));
+  }
+}
+
+TEST_CASE("thread count, lanes and llvmpipe's fused multiply-add change nothing") {
+  const std::vector<std::string> opengl = opengl_backends();
+  if (opengl.empty()) return;
+  std::string frame;
+  for (const std::vector<std::string>& options :
+       std::vector<std::vector<std::string>>{{"--threads", "1"},
+                                             {"--threads", "2", "--lanes", "4"},
+                                             {"--gl-fma", "off", "--tile", "16"},
+                                             {"--no-host-fma", "--number", "scalar"}}) {
+    std::vector<std::string> after{"--technique", "h4", "--on", "cpu," + opengl.front(), "--json", "-"};
+    after.insert(after.end(), options.begin(), options.end());
+    const Run run = run_twinshade(small_quad({"compare"}, after));
+    INFO(run.err);
+    REQUIRE(run.code == 0);
+    check_equal(run.json());
+    const std::string now = run.json()["results"][0]["a_frame"];
+    if (!frame.empty()) CHECK(now == frame);
+    frame = now;
+  }
+}
+
+TEST_CASE("softpipe shades the CPU's pixels to the same bits") {
+  if (const std::string reason = why_missing("softpipe"); !reason.empty()) {
+    MESSAGE("not tested on softpipe: " << reason);
+    return;
+  }
+  const Run run =
+      run_twinshade(small_quad({"compare"}, {"--technique", "h4,sh3", "--on", "cpu,softpipe", "--json", "-"}));
+  INFO(run.err);
+  CHECK(run.code == 0);
+  for (const auto& result : run.json()["results"]) {
+    CAPTURE(result.dump());
+    CHECK(result["pixels_differ"] == result["denormal_only"]);
+  }
+}
+
+TEST_CASE("a sum that a driver may refactor is found, and layer, pixel, inputs and ULP are named") {
+  const std::vector<std::string> opengl = opengl_backends();
+  if (opengl.empty()) return;
+  const Folder folder;
+  const std::string shader = folder.file("sum.frag",
+                                         "in vec2 v_uv;\nin vec3 v_position;\nout vec4 color;\n"
+                                         "void main() {\n"
+                                         "  float sum = v_uv.x * v_position.x + v_uv.x * v_uv.y;\n"
+                                         "  color = vec4(sum, sum * v_uv.y + v_position.y * v_uv.y, 0.0, 1.0);\n"
+                                         "}\n");
+  const std::vector<std::string> options{"--shader", shader, "--on", "cpu," + opengl.front()};
+  const Run table = run_twinshade(small_quad({"compare"}, options));
+  INFO(table.out << table.err);
+  CHECK(table.code == 1);
+  for (const char* words : {"DIFFERS", "layer color", "pixel (", "v_uv.x = ", "v_position.y = ", "0x1.", "ULP"}) {
+    CAPTURE(words);
+    CHECK(table.out.find(words) != std::string::npos);
+  }
+
+  std::vector<std::string> as_json = options;
+  as_json.insert(as_json.end(), {"--json", "-"});
+  const Run run = run_twinshade(small_quad({"compare"}, as_json));
+  CHECK(run.code == 1);
+  const auto result = run.json()["results"][0];
+  CHECK(result["pixels_differ"].get<int>() > 0);
+  CHECK(result["coverage_differs"] == 0);
+  const auto first = result["first_difference"];
+  CHECK(first["layer"] == "color");
+  CHECK(first["ulp"].get<int>() > 0);
+  CHECK(first["inputs"].size() == 5);
+  CHECK(first["a_hex"] != first["b_hex"]);
+}
+
+TEST_CASE("pictures of frames, and of differences where there are any, are written") {
+  const std::vector<std::string> opengl = opengl_backends();
+  if (opengl.empty()) return;
+  const Folder folder;
+  const Run run = run_twinshade(
+      small_quad({"compare"}, {"--technique", "h4", "--on", "cpu," + opengl.front(), "-o", folder / "new/pictures"}));
+  INFO(run.err);
+  CHECK(run.code == 0);
+  CHECK(std::filesystem::exists(folder / "new/pictures/h4.cpu.png"));
+  CHECK(std::filesystem::exists(folder / ("new/pictures/h4." + opengl.front() + ".png")));
+  CHECK_FALSE(std::filesystem::exists(folder / ("new/pictures/h4.cpu-" + opengl.front() + ".difference.png")));
+}
+
+TEST_CASE("native attributes are reported and are no failure") {
+  const std::vector<std::string> opengl = opengl_backends();
+  if (opengl.empty()) return;
+  const Run run = run_twinshade(small_quad(
+      {"compare"}, {"--technique", "h4", "--on", "cpu," + opengl.front(), "--attributes", "native", "--json", "-"}));
+  INFO(run.err);
+  CHECK(run.code == 0);
+  const auto result = run.json()["results"][0];
+  CHECK(result["attributes"] == "native");
+  CHECK(result["coverage_differs"] == 0);
+  CHECK(result["max_ulp"].is_number());
+}
+
+TEST_CASE("bench gives medians, quartiles and a ratio") {
+  const std::vector<std::string> opengl = opengl_backends();
+  const Run run =
+      run_twinshade(small_quad({"bench"}, {"--technique", "h4", "--rounds", "3", "--repeat", "2", "--json", "-"}));
+  INFO(run.err);
+  const bool egl = std::find(opengl.begin(), opengl.end(), "egl") != opengl.end();
+  CHECK(run.code == (egl ? 0 : 2));
+  bool ours = false;
+  for (const auto& row : run.json()["rows"]) {
+    if (row.contains("error")) continue;
+    CAPTURE(row.dump());
+    CHECK(row["technique"] == "h4");
+    CHECK(row["ms_q1"].get<double>() <= row["ms"].get<double>());
+    CHECK(row["ms"].get<double>() <= row["ms_q3"].get<double>());
+    CHECK(row["ns_per_pixel"].get<double>() > 0);
+    CHECK(row["ratio_to_llvmpipe"].is_number() == egl);
+    ours = ours || row["renderer"] == "cpu";
+  }
+  CHECK(ours);
+}
+
+}  // namespace twinshade

@@ -74,11 +74,10 @@ void add_box(PatchMesh& mesh, const glm::dvec3& centre, const glm::dvec3& half, 
 void add_ball(PatchMesh& mesh, const std::function<glm::dvec3(const glm::dvec3& direction)>& shape, double radius,
               const Finish& finish, double cells, double texel_weight = 1);
 
-// Any smooth tube: position(u, v), u around, v along; a single point at v = 0, v = 1 where
-// pole_at_start, pole_at_end. width, height: metres, for the
-// chart.
+// Any smooth tube: position(u, v), u around, v along; v = 0 or v = 1 is a single point where said. width, height:
+// metres, for the chart.
 void add_tube(PatchMesh& mesh, const std::function<glm::dvec3(double u, double v)>& position, double width,
               double height, const Finish& finish, double columns, double rows, const glm::dvec2& repeats,
-              bool pole_at_end, double texel_weight = 1);
+              bool pole_at_start, bool pole_at_end, double texel_weight = 1);
 
 }  // namespace twinshade

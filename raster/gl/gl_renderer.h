@@ -8,8 +8,8 @@ namespace twinshade {
 enum class GlBackend : std::uint8_t { egl, osmesa, softpipe };
 
 struct GlEnvironment {
-  int threads = 0;                 // LP_NUM_THREADS; 0: as thread_count()
-  bool host_fma = true;            // false: GALLIUM_OVERRIDE_CPU_CAPS=sse4.1
+  int threads = 0;                                         // LP_NUM_THREADS; 0: as thread_count()
+  bool host_fma = true;                                    // false: GALLIUM_OVERRIDE_CPU_CAPS=sse4.1
   std::vector<std::pair<std::string, std::string>> extra;  // further variables for the worker
 };
 
@@ -17,11 +17,13 @@ struct GlEnvironment {
 // shade_on_softpipe.
 std::unique_ptr<Renderer> make_gl_renderer(GlBackend backend, const GlEnvironment& environment = {});
 
-// Shades on softpipe the pixels that cpu_frame covers, from cpu_frame.attributes (captured). Other pixels stay as cleared.
+// Shades on softpipe the pixels that cpu_frame covers, from cpu_frame.attributes (captured). Other pixels stay as
+// cleared.
 Frame shade_on_softpipe(const Bundle& bundle, const ShaderSource& source, const Frame& cpu_frame,
                         const GlEnvironment& environment, double time_limit_seconds);
 
-// To be called first thing in main(): if this process was started as a worker, serves the parent and returns its exit code.
+// To be called first thing in main(): if this process was started as a worker, serves the parent and returns its exit
+// code.
 std::optional<int> run_gl_worker_if_asked(int argc, char** argv);
 
 }  // namespace twinshade

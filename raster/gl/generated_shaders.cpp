@@ -1,0 +1,265 @@
+#include "raster/gl/generated_shaders.h"
+
+#include <algorithm>
+
+namespace twinshade::gl {
+namespace {
+
+const char kComponent[] = "xyzw";
+
+std::string number(std::size_t value) { return std::to_string(value); }
+
+// shaders/exact/attributes.glsl under names that a user's shader cannot have.
+const std::string& exact_attribute_functions() {
+  static const std::string text = [] {
+    const ShaderSource source =
+        resolve_shader("attributes", "#include \"exact/attributes.glsl\"\n", "shaders/generated.glsl");
+    TokenText tokens = tokenize(source, preprocess(source));
+    for (Token& token : tokens.tokens)
+      if (token.text.rfind("exact_", 0) == 0 || token.text == "ExactBarycentrics") token.text = kPrefix + token.text;
+    return join(tokens) + "\n#line 1 " + number(kGeneratedFile) + "\n";
+  }();
+  return text;
+}
+
+std::string component(const InputLeaf& leaf, std::uint32_t c) {
+  return leaf.components == 1 ? leaf.name : leaf.name + "." + kComponent[c];
+}
+
+std::string as_bits(const InputLeaf& leaf, std::uint32_t c) {
+  const std::string value = component(leaf, c);
+  return leaf.scalar == Scalar::f32 ? "floatBitsToUint(" + value + ")" : "uint(" + value + ")";
+}
+
+std::string from_bits(Scalar scalar, const std::string& bits) {
+  return scalar == Scalar::f32 ? "uintBitsToFloat(" + bits + ")" : scalar == Scalar::i32 ? "int(" + bits + ")" : bits;
+}
+
+std::string glsl_type(const InputLeaf& leaf) {
+  const std::string prefix = leaf.scalar == Scalar::f32 ? "" : leaf.scalar == Scalar::i32 ? "i" : "u";
+  if (leaf.components > 1) return prefix + "vec" + number(leaf.components);
+  return leaf.scalar == Scalar::f32 ? "float" : leaf.scalar == Scalar::i32 ? "int" : "uint";
+}
+
+// Storage buffers of vertex data, shared by the exact fragment shader and the pulling vertex shader.
+std::string vertex_data(std::size_t leaf_count) {
+  return "layout(std430) readonly buffer " + std::string(kVertexBlock) +
+         " { uint twinshade_vertex[]; };\n"
+         "uniform int twinshade_base[" +
+         number(std::max<std::size_t>(leaf_count, 1)) +
+         "];\n"
+         "uint twinshade_bits(uint base, uint vertex, uint components, uint c) {\n"
+         "  return twinshade_vertex[base + vertex * components + c];\n"
+         "}\n";
+}
+
+}  // namespace
+
+std::vector<InputLeaf> leaves_of(const std::vector<Input>& inputs) {
+  std::vector<InputLeaf> leaves;
+  for (const Input& input : inputs)
+    for (std::uint32_t element = 0; element < std::max(input.array_length, 1u); ++element)
+      for (std::uint32_t column = 0; column < input.columns; ++column) {
+        std::string name = input.name;
+        if (input.array_length != 0) name += "[" + number(element) + "]";
+        if (input.columns != 1) name += "[" + number(column) + "]";
+        leaves.push_back({name, input.scalar, input.rows});
+      }
+  return leaves;
+}
+
+ShaderGenerator::ShaderGenerator(const ShaderSource& source, const FragmentShader& shader, std::vector<Input> inputs,
+                                 Supply supply)
+    : source_(source), shader_(shader), inputs_(std::move(inputs)), supply_(supply), leaves_(leaves_of(inputs_)) {}
+
+std::vector<std::string> ShaderGenerator::component_names() const {
+  std::vector<std::string> names;
+  for (const InputLeaf& leaf : leaves_)
+    for (std::uint32_t c = 0; c < leaf.components; ++c) names.push_back(component(leaf, c));
+  return names;
+}
+
+Geometry ShaderGenerator::geometry() const {
+  if (supply_ == Supply::texels) return Geometry::full_screen;
+  if (supply_ == Supply::exact || leaves_.size() > kMostVertexAttributes) return Geometry::pulled;
+  return Geometry::attributes;
+}
+
+// softpipe has GLSL 3.30 and the rest by extensions; an unknown one there is a warning only.
+std::string ShaderGenerator::head() const {
+  std::string head = supply_ == Supply::texels ? "#version 330 core\n" : "#version 450 core\n";
+  if (supply_ == Supply::texels)
+    for (const char* extension :
+         {"gpu_shader5", "shader_storage_buffer_object", "shading_language_420pack", "explicit_uniform_location",
+          "shading_language_packing", "arrays_of_arrays", "shader_image_load_store", "texture_query_levels"})
+      head += "#extension GL_ARB_" + std::string(extension) + " : enable\n";
+  if (!source_.es)  // what ES shaders ask for is part of desktop GLSL 4.50
+    for (const std::string& extension : shader_.extensions) head += extension + "\n";
+  return head + "#line 1 " + number(kGeneratedFile) + "\n";
+}
+
+bool ShaderGenerator::needs_triangle() const {
+  return supply_ == Supply::exact || (supply_ == Supply::texels && shader_.uses_fragment_position);
+}
+
+// Statements that give every input its value, and the built-ins that depend on it.
+std::string ShaderGenerator::fill() const {
+  if (supply_ == Supply::varyings) return "";
+  std::string text;
+  if (supply_ == Supply::texels)
+    text +=
+        "  ivec2 twinshade_pixel = ivec2(gl_FragCoord.xy);\n"
+        "  uint twinshade_id = texelFetch(twinshade_cpu_ids, twinshade_pixel, 0).x;\n"
+        "  if (twinshade_id == 0xffffffffu) discard;\n"
+        "  twinshade_PrimitiveID = int(twinshade_id);\n";
+  else
+    text += "  twinshade_PrimitiveID = gl_PrimitiveID;\n";
+  if (needs_triangle()) {
+    text +=
+        "  uint twinshade_v[3];\n  vec4 twinshade_p[3];\n"
+        "  for (int k = 0; k < 3; ++k) {\n"
+        "    uint v = twinshade_index[twinshade_PrimitiveID * 3 + k];\n"
+        "    twinshade_v[k] = v;\n"
+        "    twinshade_p[k] = uintBitsToFloat(uvec4(twinshade_bits(0u, v, 4u, 0u), twinshade_bits(0u, v, 4u, 1u),\n"
+        "                                           twinshade_bits(0u, v, 4u, 2u), twinshade_bits(0u, v, 4u, 3u)));\n"
+        "  }\n"
+        "  precise vec2 twinshade_ndc = gl_FragCoord.xy * twinshade_ndc_scale - 1.0;\n"
+        "  twinshade_ExactBarycentrics twinshade_b =\n"
+        "      twinshade_exact_barycentrics(twinshade_p[0], twinshade_p[1], twinshade_p[2], twinshade_ndc);\n"
+        "  twinshade_FragCoord = vec4(gl_FragCoord.xy, twinshade_b.depth, twinshade_b.reciprocal_w);\n"
+        "  twinshade_FrontFacing = twinshade_b.front_facing;\n";
+  }
+  if (supply_ == Supply::exact) text += "  gl_FragDepth = twinshade_b.depth;\n";
+
+  std::size_t leaf_number = 0, plane = 0;
+  for (const Input& input : inputs_) {
+    const bool flat = input.interpolation == "flat";
+    for (const InputLeaf& leaf : leaves_of({input})) {
+      const std::string base = "uint(twinshade_base[" + number(leaf_number++) + "])";
+      for (std::uint32_t c = 0; c < leaf.components; ++c, ++plane) {
+        const auto at = [&](int corner) {
+          return from_bits(leaf.scalar, "twinshade_bits(" + base + ", twinshade_v[" + number(std::size_t(corner)) +
+                                            "], " + number(leaf.components) + "u, " + number(c) + "u)");
+        };
+        std::string value;
+        if (supply_ == Supply::texels)
+          value = from_bits(leaf.scalar,
+                            "texelFetch(twinshade_cpu_attributes, ivec3(twinshade_pixel, " + number(plane) + "), 0).x");
+        else if (flat)
+          value = at(2);  // the provoking vertex is the last
+        else
+          value = "twinshade_exact_interpolate(" + at(0) + ", " + at(1) + ", " + at(2) + ", twinshade_b.weight)";
+        text += "  " + component(leaf, c) + " = " + value + ";\n";
+      }
+    }
+  }
+  return text;
+}
+
+std::string ShaderGenerator::fragment(const std::string& outputs, const std::string& before_user,
+                                      const std::string& after_user) const {
+  std::string text = head();
+  if (needs_triangle())
+    text += vertex_data(leaves_.size()) + "layout(std430) readonly buffer " + kIndexBlock +
+            " { uint twinshade_index[]; };\nuniform vec2 twinshade_ndc_scale;\n" + exact_attribute_functions();
+  if (supply_ == Supply::texels)
+    text += "uniform usampler2D twinshade_cpu_ids;\nuniform usampler2DArray twinshade_cpu_attributes;\n";
+  if (supply_ != Supply::varyings)
+    text += "vec4 twinshade_FragCoord;\nbool twinshade_FrontFacing;\nint twinshade_PrimitiveID;\n";
+  text += "#line 1 0\n" + shader_.text;
+  text += "\n#line 1 " + number(kGeneratedFile) + "\n" + outputs + "void main() {\n" + fill() + before_user;
+  for (const std::string& function : shader_.initializers) text += "  " + function + "();\n";
+  return text + "  " + kUserMain + "();\n" + after_user + "}\n";
+}
+
+// The first output, as the frame keeps it: missing components 0, integers by bit pattern.
+std::string ShaderGenerator::color_expression() const {
+  if (shader_.outputs.empty()) return "vec4(0.0)";
+  const Output* first = &shader_.outputs.front();
+  for (const Output& output : shader_.outputs)
+    if (output.location == 0) first = &output;
+  std::string text = "vec4(";
+  for (std::uint32_t c = 0; c < 4; ++c) {
+    std::string value = "0.0";
+    if (c < first->components) {
+      value =
+          first->name + (first->array ? "[0]" : "") + (first->components > 1 ? std::string(".") + kComponent[c] : "");
+      if (first->scalar == Scalar::i32) value = "intBitsToFloat(" + value + ")";
+      if (first->scalar == Scalar::u32) value = "uintBitsToFloat(" + value + ")";
+    }
+    text += (c == 0 ? "" : ", ") + value;
+  }
+  return text + ")";
+}
+
+std::string ShaderGenerator::vertex() const {
+  if (supply_ == Supply::texels)
+    return "#version 330 core\n"
+           "void main() {\n"
+           "  gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);\n"
+           "}\n";
+  std::string text = "#version 450 core\nlayout(location = 0) in vec4 twinshade_position;\n";
+  std::string body = "  gl_Position = twinshade_position;\n";
+  if (supply_ == Supply::varyings) {
+    const bool pulled = geometry() == Geometry::pulled;
+    if (pulled) text += vertex_data(leaves_.size());
+    for (const Input& input : inputs_) {
+      text += input.interpolation + (input.interpolation.empty() ? "" : " ") + "out " + input.type + " " + input.name;
+      text += (input.array_length == 0 ? "" : "[" + number(input.array_length) + "]") + ";\n";
+    }
+    for (std::size_t i = 0; i < leaves_.size(); ++i) {
+      const InputLeaf& leaf = leaves_[i];
+      if (!pulled) {
+        const std::string name = "twinshade_leaf" + number(i);
+        text += "layout(location = " + number(i + 1) + ") in " + glsl_type(leaf) + " " + name + ";\n";
+        body += "  " + leaf.name + " = " + name + ";\n";
+        continue;
+      }
+      for (std::uint32_t c = 0; c < leaf.components; ++c)
+        body += "  " + component(leaf, c) + " = " +
+                from_bits(leaf.scalar, "twinshade_bits(uint(twinshade_base[" + number(i) + "]), uint(gl_VertexID), " +
+                                           number(leaf.components) + "u, " + number(c) + "u)") +
+                ";\n";
+    }
+  }
+  return text + "void main() {\n" + body + "}\n";
+}
+
+ProgramText ShaderGenerator::frame() const {
+  const std::string id = supply_ == Supply::varyings ? "uint(gl_PrimitiveID)" : "uint(twinshade_PrimitiveID)";
+  return {vertex(),
+          fragment("layout(location = 0) out vec4 twinshade_color;\nlayout(location = 1) out uint twinshade_id_out;\n",
+                   "", "  twinshade_color = " + color_expression() + ";\n  twinshade_id_out = " + id + ";\n")};
+}
+
+ProgramText ShaderGenerator::timed() const {
+  return {vertex(), fragment("layout(location = 0) out vec4 twinshade_color;\n", "",
+                             "  twinshade_color = " + color_expression() + ";\n")};
+}
+
+ProgramText ShaderGenerator::prepass() const {
+  FragmentShader empty;
+  empty.text = "void " + std::string(kUserMain) + "() {}\n";
+  const ShaderGenerator depth_only(source_, empty, {}, supply_);
+  return {depth_only.vertex(), depth_only.fragment("", "", "")};
+}
+
+ProgramText ShaderGenerator::capture(std::uint32_t first) const {
+  std::vector<std::string> values;
+  for (const InputLeaf& leaf : leaves_)
+    for (std::uint32_t c = 0; c < leaf.components; ++c) values.push_back(as_bits(leaf, c));
+  std::string outputs, stores;
+  for (std::uint32_t target = 0; target < kCaptureTargets && first + target * 4 < values.size(); ++target) {
+    const std::string name = "twinshade_capture" + number(target);
+    outputs += "layout(location = " + number(target) + ") out uvec4 " + name + ";\n";
+    stores += "  " + name + " = uvec4(";
+    for (std::uint32_t c = 0; c < 4; ++c) {
+      const std::size_t index = first + target * 4 + c;
+      stores += (c == 0 ? "" : ", ") + (index < values.size() ? values[index] : "0u");
+    }
+    stores += ");\n";
+  }
+  return {vertex(), fragment(outputs, stores, "")};
+}
+
+}  // namespace twinshade::gl

@@ -1,0 +1,63 @@
+// The shaders around a user's fragment shader: the vertex shader, and a main() that fills inputs and writes what a
+// frame holds.
+#pragma once
+
+#include "raster/gl/fragment_rewrite.h"
+#include "raster/gl/protocol.h"
+#include "raster/renderer.h"
+
+namespace twinshade::gl {
+
+// Where the fragment shader's inputs come from.
+enum class Supply {
+  exact,     // vertex data in storage buffers, by shaders/exact/attributes.glsl
+  varyings,  // GL's own interpolation
+  texels,    // what the CPU captured, by texelFetch (softpipe)
+};
+
+// File number that driver logs show for generated lines, so that they are not taken for the author's.
+inline constexpr int kGeneratedFile = 1000;
+
+// Names between generated shaders and the worker.
+inline constexpr const char* kVertexBlock = "twinshade_Vertices";
+inline constexpr const char* kIndexBlock = "twinshade_Indices";
+inline constexpr const char* kNdcScale = "twinshade_ndc_scale";
+inline constexpr const char* kBases = "twinshade_base";  // float index of each leaf's values in the vertex data
+inline constexpr const char* kCpuIds = "twinshade_cpu_ids";
+inline constexpr const char* kCpuAttributes = "twinshade_cpu_attributes";
+
+// Vertex attributes that carry leaves beside the position; with more, the vertex shader pulls from a storage buffer.
+inline constexpr std::size_t kMostVertexAttributes = 15;
+
+class ShaderGenerator {
+ public:
+  ShaderGenerator(const ShaderSource& source, const FragmentShader& shader, std::vector<Input> inputs, Supply supply);
+
+  const std::vector<InputLeaf>& leaves() const { return leaves_; }
+  std::vector<std::string> component_names() const;  // as Frame::attribute_names
+  Geometry geometry() const;
+
+  ProgramText frame() const;                       // colour and primitive id
+  ProgramText timed() const;                       // colour only
+  ProgramText prepass() const;                     // depth only
+  ProgramText capture(std::uint32_t first) const;  // components [first, first + 4 * kCaptureTargets)
+
+ private:
+  std::string head() const;
+  std::string fragment(const std::string& outputs, const std::string& before_user, const std::string& after_user) const;
+  std::string fill() const;
+  std::string color_expression() const;
+  std::string vertex() const;
+  bool needs_triangle() const;
+
+  const ShaderSource& source_;
+  const FragmentShader& shader_;
+  std::vector<Input> inputs_;
+  Supply supply_;
+  std::vector<InputLeaf> leaves_;
+};
+
+// Every vecN that inputs are made of, in order.
+std::vector<InputLeaf> leaves_of(const std::vector<Input>& inputs);
+
+}  // namespace twinshade::gl

@@ -1,0 +1,122 @@
+#include "raster/gl/worker/program.h"
+
+#include "raster/gl/worker/failure.h"
+
+namespace twinshade::gl {
+namespace {
+
+constexpr std::size_t kMostPrograms = 256;
+
+class Shader {
+ public:
+  Shader(const GlFunctions& gl, GLenum stage, const std::string& text) : gl_(gl), id_(gl.CreateShader(stage)) {
+    const GLchar* strings[] = {text.c_str()};
+    gl.ShaderSource(id_, 1, strings, nullptr);
+    gl.CompileShader(id_);
+  }
+  ~Shader() { gl_.DeleteShader(id_); }
+  Shader(const Shader&) = delete;
+  Shader& operator=(const Shader&) = delete;
+
+  GLuint id() const { return id_; }
+  bool compiled() const {
+    GLint status = 0;
+    gl_.GetShaderiv(id_, GL_COMPILE_STATUS, &status);
+    return status != 0;
+  }
+  std::string log() const {
+    GLint length = 0;
+    gl_.GetShaderiv(id_, GL_INFO_LOG_LENGTH, &length);
+    std::string text(std::size_t(length) + 1, '\0');
+    gl_.GetShaderInfoLog(id_, length + 1, &length, text.data());
+    text.resize(std::size_t(length));
+    return text;
+  }
+
+ private:
+  const GlFunctions& gl_;
+  GLuint id_;
+};
+
+// "k[0]" to "k"; true if there was something to drop.
+bool drop_first_element(std::string& name) {
+  if (name.size() < 3 || name.compare(name.size() - 3, 3, "[0]") != 0) return false;
+  name.resize(name.size() - 3);
+  return true;
+}
+
+}  // namespace
+
+Program::Program(const GlFunctions& gl, const ProgramText& text) : gl_(gl) {
+  const Shader vertex(gl, GL_VERTEX_SHADER, text.vertex);
+  if (!vertex.compiled()) throw std::runtime_error("the driver rejects the generated vertex shader: " + vertex.log());
+  const Shader fragment(gl, GL_FRAGMENT_SHADER, text.fragment);
+  if (!fragment.compiled()) throw Failure(Outcome::glsl_error, fragment.log());
+  id_ = gl.CreateProgram();
+  gl.AttachShader(id_, vertex.id());
+  gl.AttachShader(id_, fragment.id());
+  gl.LinkProgram(id_);
+  GLint linked = 0;
+  gl.GetProgramiv(id_, GL_LINK_STATUS, &linked);
+  if (linked == 0) {
+    GLint length = 0;
+    gl.GetProgramiv(id_, GL_INFO_LOG_LENGTH, &length);
+    std::string log(std::size_t(length) + 1, '\0');
+    gl.GetProgramInfoLog(id_, length + 1, &length, log.data());
+    log.resize(std::size_t(length));
+    gl.DeleteProgram(id_);
+    throw Failure(Outcome::glsl_error, log);
+  }
+  find_uniforms();
+  find_blocks();
+}
+
+Program::~Program() { gl_.DeleteProgram(id_); }
+
+void Program::find_uniforms() {
+  GLint count = 0;
+  gl_.GetProgramiv(id_, GL_ACTIVE_UNIFORMS, &count);
+  for (GLint i = 0; i < count; ++i) {
+    char name[1024];
+    ActiveUniform uniform{};
+    gl_.GetActiveUniform(id_, GLuint(i), sizeof name, nullptr, &uniform.size, &uniform.type, name);
+    uniform.name = name;
+    uniform.location = gl_.GetUniformLocation(id_, name);
+    uniform.array = drop_first_element(uniform.name);
+    if (uniform.location >= 0) uniforms_.push_back(uniform);  // members of blocks have none
+  }
+}
+
+void Program::find_blocks() {
+  GLint count = 0;
+  gl_.GetProgramiv(id_, GL_ACTIVE_UNIFORM_BLOCKS, &count);
+  char name[1024];
+  for (GLuint i = 0; i < GLuint(count); ++i) {
+    ActiveBlock block{};
+    gl_.GetActiveUniformBlockName(id_, i, sizeof name, nullptr, name);
+    gl_.GetActiveUniformBlockiv(id_, i, GL_UNIFORM_BLOCK_DATA_SIZE, &block.bytes);
+    block.name = name;
+    block.index = i;
+    uniform_blocks_.push_back(block);
+  }
+  gl_.GetProgramInterfaceiv(id_, GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &count);
+  for (GLuint i = 0; i < GLuint(count); ++i) {
+    ActiveBlock block{};
+    gl_.GetProgramResourceName(id_, GL_SHADER_STORAGE_BLOCK, i, sizeof name, nullptr, name);
+    const GLenum property = GL_BUFFER_DATA_SIZE;
+    gl_.GetProgramResourceiv(id_, GL_SHADER_STORAGE_BLOCK, i, 1, &property, 1, nullptr, &block.bytes);
+    block.name = name;
+    block.index = i;
+    storage_blocks_.push_back(block);
+  }
+}
+
+const Program& ProgramCache::get(const ProgramText& text) {
+  const std::string key = text.vertex + '\0' + text.fragment;
+  if (const auto found = programs_.find(key); found != programs_.end()) return *found->second;
+  auto program = std::make_unique<Program>(gl_, text);
+  if (programs_.size() >= kMostPrograms) programs_.clear();
+  return *(programs_[key] = std::move(program));
+}
+
+}  // namespace twinshade::gl

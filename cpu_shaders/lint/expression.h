@@ -1,0 +1,48 @@
+// A GLSL expression with what the rules ask about it. Declarations with initialisers and return statements are
+// expressions too: they are where values go.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cpu_shaders/lint/glsl_type.h"
+
+namespace twinshade::lint_detail {
+
+struct Expression;
+using ExpressionPtr = std::unique_ptr<Expression>;
+
+struct Expression {
+  enum class Kind {
+    literal,      // text: as spelled
+    variable,     // text: name
+    unary,        // text: + - ! ~
+    binary,       // text: operator; comma is a sequence
+    assign,       // text: operator, ++ and -- included; operands: target, value (none for ++ and --)
+    select,       // condition ? a : b
+    builtin,      // text: function; operands: arguments
+    call,         // a function of the shader's own
+    construct,    // text: type; also { ... }
+    member,       // text: component or member name; operands: object
+    index,        // operands: object, index
+    sequence,     // operands in order
+    declaration,  // text: name; operands: initialiser or none
+    result,       // return, with its value
+  };
+  Kind kind = Kind::literal;
+  std::string text;
+  int file = 0, line = 0;
+  GlslType type;
+  std::vector<ExpressionPtr> operands;
+
+  bool constant = false;  // built of literals and constants alone
+  bool has_zero = false;  // a floating component that is known to be zero
+  bool all_zero = false;
+  std::optional<long> integer;  // value, where it is a plain integer constant
+  bool precise = false;         // assign and declaration: the target is `precise`; lvalues: their variable is
+  std::vector<bool> written;    // call: arguments that are out or inout
+};
+
+}  // namespace twinshade::lint_detail

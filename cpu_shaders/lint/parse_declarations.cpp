@@ -1,0 +1,351 @@
+// Declarations and statements of the lint's parser.
+#include <algorithm>
+#include <array>
+
+#include "base/error.h"
+#include "cpu_shaders/lint/parser.h"
+
+namespace twinshade::lint_detail {
+namespace {
+
+using Base = GlslType::Base;
+
+constexpr std::array<std::string_view, 33> kQualifiers = {
+    "in",        "out",        "inout",         "uniform",   "buffer",        "shared",
+    "const",     "precise",    "invariant",     "flat",      "smooth",        "noperspective",
+    "centroid",  "sample",     "patch",         "attribute", "varying",       "highp",
+    "mediump",   "lowp",       "coherent",      "volatile",  "restrict",      "readonly",
+    "writeonly", "subroutine", "layout",        "superp",    "nonuniformEXT", "static",
+    "inline",    "extern",     "perprimitiveNV"};
+
+bool is_qualifier(const Token& token) {
+  return token.kind == Token::Kind::name &&
+         std::find(kQualifiers.begin(), kQualifiers.end(), token.text) != kQualifiers.end();
+}
+
+Variable builtin_variable(std::string_view keyword, int array_dimensions = 0) {
+  Variable variable;
+  variable.type = keyword_type(keyword);
+  variable.type.array_dimensions = array_dimensions;
+  return variable;
+}
+
+}  // namespace
+
+Parser::Parser(const TokenList& list, Sink sink) : list_(list), tokens_(list.tokens), sink_(std::move(sink)) {
+  scopes_.emplace_back();
+  for (const char* name : {"gl_FragCoord"}) declare(name, builtin_variable("vec4"));
+  for (const char* name : {"gl_PointCoord", "gl_SamplePosition"}) declare(name, builtin_variable("vec2"));
+  for (const char* name : {"gl_FragDepth"}) declare(name, builtin_variable("float"));
+  for (const char* name : {"gl_FrontFacing", "gl_HelperInvocation"}) declare(name, builtin_variable("bool"));
+  for (const char* name : {"gl_PrimitiveID", "gl_SampleID", "gl_NumSamples", "gl_Layer", "gl_ViewportIndex"})
+    declare(name, builtin_variable("int"));
+  for (const char* name : {"gl_SampleMask", "gl_SampleMaskIn"}) declare(name, builtin_variable("int", 1));
+  for (const char* name : {"gl_ClipDistance", "gl_CullDistance"}) declare(name, builtin_variable("float", 1));
+}
+
+const Token& Parser::peek(std::size_t ahead) const { return tokens_[std::min(at_ + ahead, tokens_.size() - 1)]; }
+
+bool Parser::is(std::string_view text, std::size_t ahead) const { return peek(ahead).text == text; }
+
+Token Parser::take() {
+  const Token token = peek();
+  if (at_ + 1 < tokens_.size()) ++at_;
+  return token;
+}
+
+bool Parser::accept(std::string_view text) {
+  if (!is(text)) return false;
+  take();
+  return true;
+}
+
+void Parser::expect(std::string_view text) {
+  if (!accept(text)) lost();
+}
+
+// glslang accepted the text: being here means that this parser does not know a construct. Never guess past it.
+void Parser::lost() const {
+  const Token& token = peek();
+  throw UserError(list_.files[static_cast<std::size_t>(token.file)] + ":" + std::to_string(token.line) +
+                  ": the lint does not know the construct at \"" + token.text + "\": write it another way");
+}
+
+void Parser::skip_balanced() {
+  int depth = 0;
+  do {
+    const Token token = take();
+    if (token.kind == Token::Kind::end) return;
+    if (token.text == "(" || token.text == "[" || token.text == "{") ++depth;
+    if (token.text == ")" || token.text == "]" || token.text == "}") --depth;
+  } while (depth > 0);
+}
+
+Variable* Parser::find_variable(const std::string& name) {
+  for (auto scope = scopes_.rbegin(); scope != scopes_.rend(); ++scope)
+    if (const auto found = scope->find(name); found != scope->end()) return &found->second;
+  return nullptr;
+}
+
+bool Parser::is_type(const Token& token) const {
+  return token.kind == Token::Kind::name &&
+         (keyword_type(token.text).base != Base::unknown || structures_.count(token.text) != 0);
+}
+
+void Parser::run() {
+  while (peek().kind != Token::Kind::end) external_declaration();
+}
+
+// A type name starts a declaration unless it is a constructor: vec3(...), float[2](...), Light(...).
+bool Parser::at_declaration() const {
+  if (is_qualifier(peek()) || is("struct") || is("precision")) return true;
+  if (!is_type(peek())) return false;
+  std::size_t ahead = 1;
+  while (is("[", ahead)) {
+    while (!is("]", ahead) && peek(ahead).kind != Token::Kind::end) ++ahead;
+    ++ahead;
+  }
+  return peek(ahead).kind == Token::Kind::name;
+}
+
+GlslType Parser::type_specifier() {
+  GlslType type;
+  if (is("struct")) {
+    type = structure();
+  } else {
+    const Token name = take();
+    type = keyword_type(name.text);
+    if (type.base == Base::unknown) {
+      type.base = structures_.count(name.text) != 0 ? Base::structure : Base::unknown;
+      type.name = name.text;
+    }
+  }
+  array_suffix(type);
+  return type;
+}
+
+void Parser::array_suffix(GlslType& type) {
+  while (accept("[")) {
+    if (!is("]")) full_expression();
+    expect("]");
+    ++type.array_dimensions;
+  }
+}
+
+GlslType Parser::structure() {
+  expect("struct");
+  GlslType type = scalar_type(Base::structure);
+  type.name = is("{") ? "struct at " + std::to_string(at_) : take().text;
+  structures_[type.name];
+  members(type, false);
+  return type;
+}
+
+// { type name, name[2]; ... } of a structure or a block; global: members are names of their own.
+void Parser::members(GlslType owner, bool global) {
+  expect("{");
+  while (!accept("}")) {
+    const Declarator declarator = qualifiers_and_type();
+    do {
+      const std::string name = take().text;
+      Variable member;
+      member.type = declarator.type;
+      member.precise = declarator.precise;
+      array_suffix(member.type);
+      structures_[owner.name][name] = member;
+      if (global) declare(name, member);
+    } while (accept(","));
+    expect(";");
+  }
+}
+
+Parser::Declarator Parser::qualifiers_and_type() {
+  Declarator declarator;
+  while (is_qualifier(peek())) {
+    const std::string qualifier = take().text;
+    declarator.has_qualifier = true;
+    if (qualifier == "precise") declarator.precise = true;
+    if (qualifier == "const") declarator.constant = true;
+    if (qualifier == "out" || qualifier == "inout") declarator.is_output = true;
+    if ((qualifier == "layout" || qualifier == "subroutine") && is("(")) skip_balanced();
+  }
+  // `layout(...) in;` and `precise name;` have no type; a block has a name that is none
+  if (!is(";") && (is_type(peek()) || is("struct"))) declarator.type = type_specifier();
+  return declarator;
+}
+
+// precise a, b;
+void Parser::redeclare_precise() {
+  do {
+    if (Variable* variable = find_variable(take().text)) variable->precise = true;
+  } while (accept(","));
+  expect(";");
+}
+
+void Parser::external_declaration() {
+  if (accept(";")) return;
+  if (is("precision")) {
+    while (!accept(";")) take();
+    return;
+  }
+  const Declarator declarator = qualifiers_and_type();
+  if (accept(";")) return;
+  if (declarator.type.base == Base::unknown && declarator.has_qualifier) {
+    if (!is("{", 1)) return redeclare_precise();
+    GlslType block = scalar_type(Base::structure);
+    block.name = take().text;
+    const bool named = [&] {
+      const std::size_t start = at_;
+      skip_balanced();
+      const bool instance = !is(";");
+      at_ = start;
+      return instance;
+    }();
+    members(block, !named);
+    if (named)
+      declarators({block});
+    else
+      expect(";");
+    return;
+  }
+  if (is("(", 1)) {
+    const std::string name = take().text;
+    function(declarator, name);
+  } else {
+    declarators(declarator);
+  }
+}
+
+void Parser::function(const Declarator& declarator, const std::string& name) {
+  expect("(");
+  Function function;
+  function.result = declarator.type;
+  scopes_.emplace_back();
+  while (!accept(")")) {
+    Declarator parameter = qualifiers_and_type();
+    const std::string parameter_name = peek().kind == Token::Kind::name ? take().text : "";
+    array_suffix(parameter.type);
+    if (parameter.type.base != Base::nothing) {
+      Variable variable;
+      variable.type = parameter.type;
+      variable.precise = parameter.precise;
+      if (!parameter_name.empty()) declare(parameter_name, variable);
+      function.parameters.push_back(parameter.type);
+      function.written.push_back(parameter.is_output);
+    }
+    accept(",");
+  }
+  functions_.emplace(name, function);
+  if (!accept(";")) block();
+  scopes_.pop_back();
+}
+
+// name [= initialiser], ... ;
+void Parser::declarators(Declarator declarator) {
+  if (accept(";")) return;
+  do {
+    const Token name = take();
+    Variable variable;
+    variable.type = declarator.type;
+    variable.precise = declarator.precise;
+    array_suffix(variable.type);
+    ExpressionPtr declaration = make(Expression::Kind::declaration, name);
+    declaration->type = variable.type;
+    declaration->precise = declarator.precise;
+    if (accept("=")) {
+      ExpressionPtr value = initializer(variable.type);
+      variable.constant = declarator.constant && value->constant;
+      variable.has_zero = value->has_zero;
+      variable.all_zero = value->all_zero;
+      if (variable.constant) variable.integer = value->integer;
+      declaration->operands.push_back(std::move(value));
+    }
+    sink_(*declaration);
+    declare(name.text, variable);
+  } while (accept(","));
+  expect(";");
+}
+
+void Parser::block() {
+  expect("{");
+  scopes_.emplace_back();
+  while (!is("}") && peek().kind != Token::Kind::end) statement();
+  expect("}");
+  scopes_.pop_back();
+}
+
+// The part in brackets of if, while and switch; while may declare a variable.
+void Parser::condition() {
+  expect("(");
+  if (at_declaration()) {
+    const Declarator declarator = qualifiers_and_type();
+    const Token name = take();
+    expect("=");
+    ExpressionPtr declaration = make(Expression::Kind::declaration, name);
+    declaration->type = declarator.type;
+    declaration->operands.push_back(initializer(declarator.type));
+    sink_(*declaration);
+    Variable variable;
+    variable.type = declarator.type;
+    declare(name.text, variable);
+  } else {
+    full_expression();
+  }
+  expect(")");
+}
+
+void Parser::statement() {
+  const Token first = peek();
+  if (is("{")) return block();
+  if (accept(";")) return;
+  if (accept("if")) {
+    condition();
+    statement();
+    if (accept("else")) statement();
+  } else if (accept("while") || accept("switch")) {
+    scopes_.emplace_back();
+    condition();
+    statement();
+    scopes_.pop_back();
+  } else if (accept("do")) {
+    statement();
+    expect("while");
+    condition();
+    expect(";");
+  } else if (accept("for")) {
+    scopes_.emplace_back();
+    expect("(");
+    statement();
+    if (!is(";")) full_expression();
+    expect(";");
+    if (!is(")")) full_expression();
+    expect(")");
+    statement();
+    scopes_.pop_back();
+  } else if (accept("return")) {
+    ExpressionPtr result = make(Expression::Kind::result, first);
+    if (!is(";")) result->operands.push_back(expression());
+    expect(";");
+    sink_(*result);
+  } else if (accept("case")) {
+    full_expression();
+    expect(":");
+  } else if (accept("default")) {
+    expect(":");
+  } else if (accept("break") || accept("continue") || accept("discard")) {
+    expect(";");
+  } else if (is("precision")) {
+    while (!accept(";")) take();
+  } else if (at_declaration()) {
+    const Declarator declarator = qualifiers_and_type();
+    if (declarator.type.base == Base::unknown)
+      redeclare_precise();
+    else
+      declarators(declarator);
+  } else {
+    full_expression();
+    expect(";");
+  }
+}
+
+}  // namespace twinshade::lint_detail

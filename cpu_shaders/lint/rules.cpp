@@ -1,0 +1,319 @@
+#include "cpu_shaders/lint/rules.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <initializer_list>
+
+namespace twinshade::lint_detail {
+namespace {
+
+using Base = GlslType::Base;
+using Kind = Expression::Kind;
+
+// Where a node stands in its statement.
+struct Place {
+  bool precise = false;                    // its value goes into a `precise` variable
+  bool compared = false;                   // it is an operand of a comparison
+  const Expression* arithmetic = nullptr;  // the arithmetic it is an operand of
+};
+
+bool one_of(std::string_view name, std::initializer_list<std::string_view> names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool starts_with(std::string_view text, std::string_view prefix) { return text.substr(0, prefix.size()) == prefix; }
+
+bool is_operator(const Expression& e) { return e.kind == Kind::binary || e.kind == Kind::assign; }
+
+bool is_comparison(const Expression& e) {
+  return (e.kind == Kind::binary && one_of(e.text, {"<", ">", "<=", ">=", "==", "!="})) ||
+         (e.kind == Kind::builtin &&
+          one_of(e.text, {"lessThan", "lessThanEqual", "greaterThan", "greaterThanEqual", "equal", "notEqual"}));
+}
+
+// Operations of the dialect that compilers may rearrange unless told not to.
+bool is_arithmetic(const Expression& e) {
+  if (!e.type.is_floating()) return false;
+  if (is_operator(e)) return one_of(e.text, {"+", "-", "*", "/", "+=", "-=", "*=", "/=", "++", "--"});
+  return e.kind == Kind::builtin && one_of(e.text, {"sqrt", "min", "max", "clamp", "step"});
+}
+
+bool is_texture_query(std::string_view f) {
+  return one_of(f, {"textureSize", "texelFetch", "texelFetchOffset", "textureQueryLevels", "textureSamples"});
+}
+
+bool is_filter(std::string_view f) {
+  return (starts_with(f, "texture") && !is_texture_query(f)) || starts_with(f, "interpolateAt") ||
+         starts_with(f, "shadow");
+}
+
+bool is_transcendental(std::string_view f) {
+  return one_of(f, {"sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh",
+                    "pow", "exp", "log", "exp2", "log2", "inversesqrt"});
+}
+
+bool is_written_out(std::string_view f) {
+  return one_of(f, {"dot", "length", "normalize", "cross", "reflect", "mix", "fract", "mod"});
+}
+
+// Moves, selects or rounds in one way only, or works on integers.
+bool is_exact_builtin(std::string_view f) {
+  return is_texture_query(f) || starts_with(f, "atomic") || starts_with(f, "image") || starts_with(f, "bit") ||
+         starts_with(f, "dFdx") || starts_with(f, "dFdy") || starts_with(f, "memoryBarrier") ||
+         one_of(f, {"abs",
+                    "floor",
+                    "ceil",
+                    "trunc",
+                    "min",
+                    "max",
+                    "clamp",
+                    "step",
+                    "sqrt",
+                    "transpose",
+                    "floatBitsToInt",
+                    "floatBitsToUint",
+                    "intBitsToFloat",
+                    "uintBitsToFloat",
+                    "lessThan",
+                    "lessThanEqual",
+                    "greaterThan",
+                    "greaterThanEqual",
+                    "equal",
+                    "notEqual",
+                    "any",
+                    "all",
+                    "not",
+                    "findLSB",
+                    "findMSB",
+                    "umulExtended",
+                    "imulExtended",
+                    "uaddCarry",
+                    "usubBorrow",
+                    "groupMemoryBarrier",
+                    "barrier"});
+}
+
+bool works_on_integers(const Expression& e) {
+  return !e.operands.empty() && std::all_of(e.operands.begin(), e.operands.end(), [](const ExpressionPtr& argument) {
+    return argument->type.is_integer() || argument->type.base == Base::boolean;
+  });
+}
+
+// A written-out decimal: digits from the first that is not zero to the end of the significand.
+int significant_digits(const std::string& literal) {
+  int digits = 0;
+  for (const char c : literal) {
+    if (c == 'e' || c == 'E' || c == 'f' || c == 'F' || c == 'l' || c == 'L') break;
+    if (c != '.' && (c != '0' || digits > 0)) ++digits;
+  }
+  return digits;
+}
+
+bool has_variable_index(const Expression& target) {
+  const Expression* e = &target;
+  for (; e->kind == Kind::member || e->kind == Kind::index; e = e->operands[0].get()) {
+    if (e->operands.empty()) return false;
+    if (e->kind == Kind::index && e->operands[0]->type.is_vector() && !e->operands[1]->constant) return true;
+  }
+  return false;
+}
+
+// Each check answers with the operation to name, or with nothing.
+
+std::string not_precise(const Expression& e, const Place& place) {
+  const bool precise = e.kind == Kind::assign ? e.precise : place.precise;
+  return is_arithmetic(e) && !e.constant && !precise && !place.compared && !place.arithmetic ? e.text : "";
+}
+
+std::string compared(const Expression& e, const Place& place) {
+  return is_arithmetic(e) && !e.constant && place.compared && !place.arithmetic ? e.text : "";
+}
+
+std::string constant_arithmetic(const Expression& e, const Place& place) {
+  const bool folded = is_arithmetic(e) && e.constant && !one_of(e.text, {"min", "max", "clamp", "step"});
+  return folded && !(place.arithmetic && place.arithmetic->constant) ? e.text : "";
+}
+
+std::string zero_operand(const Expression& e, const Place&) {
+  if (!is_operator(e) || !is_arithmetic(e) || e.constant || e.operands.size() != 2) return "";
+  const char op = e.text[0];
+  const bool left = e.operands[0]->has_zero, right = e.operands[1]->has_zero;
+  return left || (right && op != '/') ? e.text : "";
+}
+
+std::string literal(const Expression& e, const Place&) {
+  if (e.kind != Kind::literal || e.type.base != Base::float32) return "";
+  const char* text = e.text.c_str();
+  const float value = std::strtof(text, nullptr);
+  const bool exact = std::strtold(text, nullptr) == static_cast<long double>(value);
+  const bool one_rounding = value == static_cast<float>(std::strtod(text, nullptr));
+  const bool ordinary = value == 0.0F || std::fpclassify(value) == FP_NORMAL;
+  return ordinary && (exact || (one_rounding && significant_digits(e.text) >= 9)) ? "" : e.text;
+}
+
+std::string written_out_function(const Expression& e, const Place&) {
+  if (e.kind != Kind::builtin || !is_written_out(e.text)) return "";
+  const bool selects = e.text == "mix" && e.operands.size() == 3 && e.operands[2]->type.base == Base::boolean;
+  return selects ? "" : e.text;
+}
+
+std::string transcendental(const Expression& e, const Place&) {
+  return e.kind == Kind::builtin && is_transcendental(e.text) ? e.text : "";
+}
+
+std::string matrix_product(const Expression& e, const Place&) {
+  if (!is_operator(e) || !one_of(e.text, {"*", "*="}) || e.operands.size() != 2) return "";
+  const GlslType &a = e.operands[0]->type, &b = e.operands[1]->type;
+  const bool product = (a.is_matrix() && (b.is_matrix() || b.is_vector())) || (a.is_vector() && b.is_matrix());
+  return product ? e.text : "";
+}
+
+std::string fused(const Expression& e, const Place&) {
+  return e.kind == Kind::builtin && e.text == "fma" ? e.text : "";
+}
+
+std::string filtered(const Expression& e, const Place&) {
+  return e.kind == Kind::builtin && is_filter(e.text) ? e.text : "";
+}
+
+std::string other_builtin(const Expression& e, const Place&) {
+  if (e.kind != Kind::builtin || e.text == "fma" || is_exact_builtin(e.text) || is_transcendental(e.text) ||
+      is_written_out(e.text) || is_filter(e.text))
+    return "";
+  return works_on_integers(e) ? "" : e.text;
+}
+
+std::string vector_store(const Expression& e, const Place&) {
+  if (e.kind == Kind::assign) return has_variable_index(*e.operands[0]) ? "[]" : "";
+  if (e.kind != Kind::call) return "";
+  for (std::size_t i = 0; i < e.operands.size() && i < e.written.size(); ++i)
+    if (e.written[i] && has_variable_index(*e.operands[i])) return "[]";
+  return "";
+}
+
+std::string double_type(const Expression& e, const Place&) {
+  const bool names_it = e.kind == Kind::declaration || e.kind == Kind::construct || e.kind == Kind::literal ||
+                        e.kind == Kind::variable || e.kind == Kind::builtin;
+  return names_it && e.type.base == Base::float64 ? e.text : "";
+}
+
+std::string division(const Expression& e, const Place&) {
+  if (!is_operator(e) || !one_of(e.text, {"/", "/=", "%", "%="}) || !e.type.is_integer()) return "";
+  const auto divisor = e.operands[1]->integer;
+  return divisor && *divisor != 0 && *divisor != -1 ? "" : e.text;
+}
+
+std::string remainder(const Expression& e, const Place&) {
+  return is_operator(e) && one_of(e.text, {"%", "%="}) && e.type.base == Base::int32 && !e.constant ? e.text : "";
+}
+
+struct Row {
+  LintRule rule;
+  std::string (*check)(const Expression&, const Place&);
+};
+
+constexpr Row kTable[] = {
+    {{"precise",
+      "arithmetic that does not go straight into a precise variable may be rearranged: "
+      "store it in a `precise` one first, also before it is passed, returned or converted"},
+     not_precise},
+    {{"compare",
+      "`precise` does not reach arithmetic inside a comparison: store it in a `precise` variable, compare that"},
+     compared},
+    {{"constant",
+      "arithmetic between constants is folded in double here and in float there: "
+      "write the result as one literal, its closed form in a comment"},
+     constant_arithmetic},
+    {{"literal",
+      "a float literal needs nine significant digits (or to be exact in float), one rounding, and no denormal or "
+      "infinite value: write the digits of the float that is meant"},
+     literal},
+    {{"zero",
+      "compilers drop x + 0.0 and fold x * 0.0 and 0.0 - x without regard to the sign of zero and to NaN: "
+      "write -x, or leave the operation out"},
+     zero_operand},
+    {{"function", "the order of its operations is the driver's choice: include exact/NAME.glsl and call exact_NAME"},
+     written_out_function},
+    {{"transcendental",
+      "drivers approximate it differently: include the function's file from exact/ and call exact_NAME "
+      "(inversesqrt: 1.0 / sqrt(x))"},
+     transcendental},
+    {{"matrix",
+      "the order of a matrix product's sums is the driver's choice: include exact/matrix.glsl, "
+      "call exact_multiply"},
+     matrix_product},
+    {{"fma", "fused on some machines only: write a * b + c"}, fused},
+    {{"filter", "filter weights and interpolation differ between machines: texelFetch and exact/bilinear.glsl"},
+     filtered},
+    {{"builtin",
+      "not in the exact dialect: write it with + - * / sqrt, abs, floor, ceil, trunc, min, max, clamp, step"},
+     other_builtin},
+    {{"vector-store", "`precise` does not reach a store through a variable index: assign the whole vector"},
+     vector_store},
+    {{"double", "double is not in the exact dialect: use float"}, double_type},
+    {{"division",
+      "integer division by zero, or of the smallest int by -1, is undefined: divide by a constant other than "
+      "0 and -1"},
+     division},
+    {{"remainder", "% of a negative int differs between machines: use uint"}, remainder},
+};
+
+void walk(const Expression& e, const Place& place, const Report& report);
+
+void walk_operands(const Expression& e, std::size_t first, const Place& place, const Report& report) {
+  for (std::size_t i = first; i < e.operands.size(); ++i) walk(*e.operands[i], place, report);
+}
+
+void walk(const Expression& e, const Place& place, const Report& report) {
+  for (const Row& row : kTable)
+    if (const std::string operation = row.check(e, place); !operation.empty()) report(e, row.rule, operation);
+
+  Place inner = place;
+  if (is_arithmetic(e)) inner.arithmetic = &e;
+  if (is_comparison(e)) return walk_operands(e, 0, {false, true, nullptr}, report);
+  switch (e.kind) {
+    case Kind::declaration:
+      return walk_operands(e, 0, {e.precise, false, nullptr}, report);
+    case Kind::assign:
+      walk(*e.operands[0], {}, report);
+      return walk_operands(e, 1, {e.precise, false, is_arithmetic(e) ? &e : nullptr}, report);
+    case Kind::select:
+      walk(*e.operands[0], {}, report);
+      return walk_operands(e, 1, inner, report);
+    case Kind::index:
+      walk(*e.operands[0], inner, report);
+      return walk(*e.operands[1], {}, report);
+    case Kind::sequence:
+      for (std::size_t i = 0; i + 1 < e.operands.size(); ++i) walk(*e.operands[i], {}, report);
+      return walk(*e.operands.back(), inner, report);
+    case Kind::call:
+    case Kind::result:
+      return walk_operands(e, 0, {}, report);
+    case Kind::builtin:
+      return walk_operands(e, 0, is_texture_query(e.text) || is_filter(e.text) ? Place{} : inner, report);
+    case Kind::binary:
+      return walk_operands(e, 0, one_of(e.text, {"&&", "||", "^^"}) ? Place{} : inner, report);
+    default:
+      return walk_operands(e, 0, inner, report);
+  }
+}
+
+}  // namespace
+
+void apply_rules(const Expression& expression, const Report& report) { walk(expression, {}, report); }
+
+}  // namespace twinshade::lint_detail
+
+namespace twinshade {
+
+std::span<const LintRule> lint_rules() {
+  static const std::vector<LintRule> rules = [] {
+    std::vector<LintRule> list;
+    for (const auto& row : lint_detail::kTable) list.push_back(row.rule);
+    return list;
+  }();
+  return rules;
+}
+
+}  // namespace twinshade

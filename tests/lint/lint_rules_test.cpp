@@ -1,0 +1,221 @@
+// Each row of the lint's table, with shaders that break it and shaders that come close and do not.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "cpu_shaders/lint/lint.h"
+
+namespace twinshade {
+namespace {
+
+// The sample stands in the body of main; declarations that it may use stand before.
+constexpr const char* kDeclarations = R"(
+in vec3 a; in vec3 b; flat in int k; flat in uint u; uniform mat3 m; uniform sampler2D map; uniform sampler2DArray maps;
+const float HALF = 0.5; const int FOUR = 4;
+struct Light { vec3 colour; float power; };
+float twice(float x) { precise float y = x + x; return y; }
+void fill(out float x) { x = 1.0; }
+layout(location = 0) out vec4 color;
+)";
+
+ShaderSource shader_of(const std::string& body, const std::string& before_main = "") {
+  return resolve_shader("sample", kDeclarations + before_main + "\nvoid main() {\n" + body + "\n}\n", "sample.frag");
+}
+
+std::vector<LintFinding> lint_body(const std::string& body) { return lint(shader_of(body)); }
+
+std::set<std::string> rules_of(const std::vector<LintFinding>& findings) {
+  std::set<std::string> rules;
+  for (const LintFinding& finding : findings) rules.insert(finding.rule);
+  return rules;
+}
+
+struct Samples {
+  const char* rule;
+  std::vector<const char*> breaking;  // each breaks this rule and no other
+  std::vector<const char*> clean;
+};
+
+const std::vector<Samples>& samples() {
+  static const std::vector<Samples> table = {
+      {"precise",
+       {"float x = a.x * b.x;", "color = vec4(a + b, 1.0);", "float x = twice(a.x * 2.0);",
+        "float x; x = a.x; x += b.x;", "precise float x = twice(a.x + b.x);", "int i = int(a.x * 4.0);",
+        "float x = a.x; x++;", "if (int(a.x / b.x) == k) discard;", "color = texelFetch(map, ivec2(a.xy * 8.0), 0);",
+        "float x = sqrt(a.x);", "float x = max(a.x, b.x);", "Light l = Light(a * b, 1.0);",
+        "Light l; l.power = a.x - b.x;", "switch (int(a.x + b.x)) { case 0: discard; }",
+        "float x[2] = float[2](a.x, a.x + b.x);", "float x[2] = {a.x, a.x + b.x};",
+        "for (float t = a.x; t < 4.0; t += b.x) {}", "vec3 v = k > 0 ? a * b : a;",
+        "bool c = floatBitsToInt(a.x * b.x) > 3;"},
+       {"precise float x = a.x * b.x;", "precise vec3 v = a; v += b;", "precise float x; x = sqrt(a.x * a.x + 1.0);",
+        "precise vec3 v; v.x = a.x * 2.0;", "precise vec3 v = vec3(a.x * b.x, a.y, -a.z);", "float x = -a.x;",
+        "float x = k > 0 ? a.x : b.x;", "int i = k * 3 + 1;", "precise float x[2]; x[0] = a.x + b.x;",
+        "precise Light l; l.power = a.x - b.x;", "float x; precise x; x = a.x * b.x;", "float x = abs(floor(a.x));",
+        "precise float x = floor(a.x * b.x + 0.5);", "precise float x = k > 0 ? a.x * b.x : 0.0;",
+        "precise float x = a.x, y = x * x; x++;", "for (int i = 0; i < 4; ++i) {}"}},
+      {"compare",
+       {"if (a.x * b.x > 1.0) discard;", "bool c = a.x + 1.0 == b.x;", "precise float x = a.x - b.x > 0.0 ? 1.0 : 2.0;",
+        "while (sqrt(a.x) < 1.0) discard;", "bvec3 c = lessThan(a * b, b);", "if (max(a.x, b.x) > 1.0) discard;"},
+       {"precise float x = a.x * b.x; if (x > 1.0) discard;", "if (k * 2 > 3) discard;", "if (a.x < b.x) discard;",
+        "if (abs(a.x) < 1.0) discard;", "if (twice(a.x) < 1.0) discard;"}},
+      {"constant",
+       {"precise float x = a.x * (2.0 * 3.0);", "const float t = 1.0 / 3.0;", "precise float x = sqrt(2.0);",
+        "precise float x = HALF * HALF + a.x;", "precise vec3 v = vec3(1.0, 2.0, 3.0) / 2.0;", "float x = 2.0 - HALF;"},
+       {"const float t = -0.5;", "int i = 2 * 3;", "precise float x = 2.0 * a.x;", "const vec2 v = vec2(1.0, 2.0);",
+        "float x = float(FOUR);"}},
+      {"literal",
+       {"precise float x = a.x * 0.1;", "float x = 3.14159;", "float x = 1e-40;", "float x = 1e39;",
+        "float x = 1.0e-3;", "float x = 0.3333333f;", "precise vec3 v = a * vec3(0.5, 0.2, 1.0);"},
+       {"float x = 0.5;", "float x = 3.14159274;", "float x = 0.100000000;", "float x = 1.17549435e-38;",
+        "float x = 0.0;", "float x = 2.884765625f;", "float x = 1e6;", "int i = 7;", "float x = 1.;",
+        "float x = .25;"}},
+      {"zero",
+       {"precise float x = a.x * 0.0;", "precise float x = a.x + 0.0;", "precise float x = 0.0 - a.x;",
+        "precise vec3 v = a * vec3(1.0, 0.0, 1.0);", "precise float sum = 0.0; sum += a.x;",
+        "precise float x = a.x - 0.0;", "precise float sum = 0.0; for (int i = 0; i < 4; ++i) sum += a.x;",
+        "precise vec3 v = a + vec3(0);", "const float none = 0.0; precise float x = a.x * none;",
+        "precise float x = 0.0 / a.x;", "precise vec2 v = vec2(b.x, 0.0) + a.xy;", "precise float x = a.x; x += -0.0;"},
+       {"precise float x = a.x * 1.0;", "float x = 0.0;", "precise float x = 0.0; x = a.x; x += b.x;", "int i = k * 0;",
+        "precise float x = a.x > 0.0 ? a.x : 0.0; x += b.x;", "vec4 v = vec4(a, 0.0);"}},
+      {"function",
+       {"float x = dot(a, b);", "float x = length(a);", "vec3 v = normalize(a);", "vec3 v = cross(a, b);",
+        "vec3 v = reflect(a, b);", "precise vec3 v = mix(a, b, 0.5);", "float x = fract(a.x);",
+        "float x = mod(a.x, 2.0);"},
+       {"float x[3]; int i = x.length();", "vec3 v = mix(a, b, lessThan(a, b));"}},
+      {"transcendental",
+       {"float x = sin(a.x);", "float x = exp2(a.x);", "float x = pow(a.x, 2.0);", "float x = atan(a.x, a.y);",
+        "float x = inversesqrt(a.x);", "precise float x = 1.0 - cos(a.x);", "vec3 v = log(a);"},
+       {"float x = twice(a.x);"}},
+      {"matrix",
+       {"precise vec3 v = m * a;", "precise vec3 v = a * m;", "precise mat3 n = m * m;", "precise vec3 v = a; v *= m;"},
+       {"precise mat3 n = m * 2.0;", "vec3 v = m[0];", "mat3 n = transpose(m);", "precise vec3 v = m[0] * a.x;"}},
+      {"fma", {"precise float x = fma(a.x, b.x, 1.0);"}, {"precise float x = a.x * b.x + 1.0;"}},
+      {"filter",
+       {"color = texture(map, a.xy);", "color = textureLod(maps, a, 1.0);", "color = textureGather(map, a.xy);",
+        "vec3 v = interpolateAtCentroid(a);"},
+       {"color = texelFetch(map, ivec2(k, 0), 0);", "ivec2 size = textureSize(map, 0);"}},
+      {"builtin",
+       {"float x = round(a.x);", "vec3 v = smoothstep(a, b, a);", "float x = distance(a, b);", "float x = sign(a.x);",
+        "mat3 n = inverse(m);", "float x = radians(a.x);", "bool c = isnan(a.x);", "vec3 v = fwidth(a);",
+        "uint p = packHalf2x16(a.xy);", "float x = roundEven(a.x);", "vec3 v = refract(a, b, 0.5);"},
+       {"float x = trunc(a.x);", "float x = ceil(a.x);", "precise float x = step(a.x, b.x);", "int i = abs(k);",
+        "int i = sign(k);", "vec3 v = dFdx(a);", "int i = bitCount(k);", "uint h = floatBitsToUint(a.x);",
+        "bool c = any(lessThan(a, b));"}},
+      {"vector-store",
+       {"vec3 v = a; v[k] = 1.0;", "mat3 n = m; n[0][k] = 1.0;", "vec3 v = a; fill(v[k]);",
+        "ivec2 i = ivec2(1); i[k]++;", "vec3 v[2]; v[k][k] = 1.0;"},
+       {"vec3 v = a; v[1] = 1.0;", "float x[3]; x[k] = 1.0;", "float x = a[k];", "vec3 v = a; v[FOUR - 2] = 1.0;",
+        "vec3 v[2]; v[k].x = 1.0;", "mat3 n = m; n[k] = a;"}},
+      {"double", {"double x;", "dvec2 v;", "color.x = float(double(k));"}, {"float x;", "int doubled = k;"}},
+      {"division",
+       {"int i = 4 / k;", "uint i = 3u / u;", "int i = k; i /= k;", "int i = k / -1;", "uint i = 7u % u;"},
+       {"int i = k / 4;", "uint i = u % 3u;", "int i = k / FOUR;", "uint i = u / 2u;", "precise float x = a.x / b.x;"}},
+      {"remainder", {"int i = k % 4;", "int i = k; i %= 3;"}, {"uint i = u % 4u;", "int i = k & 3;"}},
+  };
+  return table;
+}
+
+}  // namespace
+
+TEST_CASE("every rule of the table has breaking and clean samples") {
+  std::set<std::string> sampled;
+  for (const Samples& row : samples()) {
+    sampled.insert(row.rule);
+    CHECK(!row.breaking.empty());
+    CHECK(!row.clean.empty());
+  }
+  std::set<std::string> rules;
+  for (const LintRule& rule : lint_rules()) rules.insert(std::string(rule.id));
+  CHECK(sampled == rules);
+}
+
+TEST_CASE("a breaking sample is found by its rule, and by no other") {
+  for (const Samples& row : samples()) {
+    for (const char* body : row.breaking) {
+      CAPTURE(body);
+      CHECK(rules_of(lint_body(body)) == std::set<std::string>{row.rule});
+    }
+  }
+}
+
+TEST_CASE("a clean sample has no finding") {
+  for (const Samples& row : samples()) {
+    for (const char* body : row.clean) {
+      CAPTURE(body);
+      const std::vector<LintFinding> findings = lint_body(body);
+      for (const LintFinding& finding : findings) FAIL_CHECK(describe(finding));
+    }
+  }
+}
+
+TEST_CASE("a finding names file, line and operation through macros, conditionals and #line") {
+  const ShaderSource source = resolve_shader("lines",
+                                             "#define SCALE(x) ((x) * 0.1)\n"
+                                             "in float a;\n"
+                                             "out vec4 color;\n"
+                                             "#ifdef ABSENT\n"
+                                             "float unseen() { return sin(1.0); }\n"
+                                             "#endif\n"
+                                             "void main() {\n"
+                                             "  precise float x =\n"
+                                             "      SCALE(a);\n"
+                                             "#line 70 \"other.glsl\"\n"
+                                             "  float y = dot(vec2(x), vec2(a));\n"
+                                             "  color = vec4(y);\n"
+                                             "}\n",
+                                             "lines.frag");
+  const std::vector<LintFinding> findings = lint(source);
+  REQUIRE(findings.size() == 2);
+  CHECK(findings[0].file == "lines.frag");
+  CHECK(findings[0].line == 9);
+  CHECK(findings[0].rule == "literal");
+  CHECK(findings[0].operation == "0.1");
+  CHECK(findings[1].file == "other.glsl");
+  CHECK(findings[1].line == 70);
+  CHECK(findings[1].operation == "dot");
+  CHECK(describe(findings[1]).rfind("other.glsl:70: dot: ", 0) == 0);
+}
+
+TEST_CASE("two operations of one expression on different lines of a function body are both found") {
+  const std::vector<LintFinding> findings = lint_body("float x = sin(a.x)\n + cos(a.y);");
+  CHECK(findings.size() == 3);
+}
+
+TEST_CASE("arithmetic is found in every place a statement can have it") {
+  const std::string expression = "twice(a.x * b.x)";
+  for (const std::string& body :
+       {"if (k > 0) { } else color.x = " + expression + ";", "do { color.x = " + expression + "; } while (k > 9);",
+        "for (int i = 0; i < k; ++i) { if (i == 2) continue; color.x = " + expression + "; }",
+        "switch (k) { case 1: color.x = " + expression + "; break; default: break; }",
+        "{ { color.x = " + expression + "; } }", "for (float t = " + expression + "; k > 9;) {}",
+        "color = vec4(1.0), color.x = " + expression + ";", "while (" + expression + " > a.x) {}"}) {
+    CAPTURE(body);
+    CHECK(rules_of(lint_body(body)) == std::set<std::string>{"precise"});
+  }
+  CHECK(rules_of(lint(shader_of("", "float f(float x) { return x * x; }"))) == std::set<std::string>{"precise"});
+  CHECK(rules_of(lint(shader_of("", "float g = HALF * HALF;"))) == std::set<std::string>{"constant"});
+}
+
+TEST_CASE("blocks, structures, arrays and overloads are followed") {
+  const std::string before =
+      "layout(std140) uniform Scene { mat4 view; vec4 light[2]; } scene;\n"
+      "layout(std430) readonly buffer Values { float values[]; };\n"
+      "struct Inner { vec3 v[2]; }; struct Outer { Inner inner; precise float exact; };\n"
+      "int pick(int i) { return i; }\nfloat pick(float x) { return x; }\n";
+  CHECK(rules_of(lint(shader_of("color = scene.view * scene.light[0];", before))) == std::set<std::string>{"matrix"});
+  CHECK(rules_of(lint(shader_of("float x = values[k] + 1.0;", before))) == std::set<std::string>{"precise"});
+  CHECK(rules_of(lint(shader_of("Outer o; float x = o.inner.v[1].y * 2.0;", before))) ==
+        std::set<std::string>{"precise"});
+  CHECK(rules_of(lint(shader_of("int i = pick(k) * 2;", before))).empty());
+  CHECK(rules_of(lint(shader_of("float x = pick(a.x) * 2.0;", before))) == std::set<std::string>{"precise"});
+}
+
+TEST_CASE("a shader that is not GLSL is refused with its position") {
+  CHECK_THROWS_WITH_AS(lint_body("float x = nothing;"), doctest::Contains("sample.frag:"), UserError);
+}
+
+}  // namespace twinshade

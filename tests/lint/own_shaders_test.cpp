@@ -1,0 +1,64 @@
+// Every shader of shaders/ is in the exact dialect.
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "cpu_shaders/lint/lint.h"
+#include "cpu_shaders/source/builtin_shaders.h"
+
+namespace twinshade {
+namespace {
+
+void check_clean(const ShaderSource& source) {
+  CAPTURE(source.name);
+  for (const LintFinding& finding : lint(source)) FAIL_CHECK(describe(finding));
+}
+
+std::string include_line(std::string_view name) { return "#include \"" + std::string(name) + "\"\n"; }
+
+}  // namespace
+
+TEST_CASE("exact functions lint clean") {
+  int count = 0;
+  for (const std::string_view name : builtin_shader_names()) {
+    if (name.substr(0, 6) != "exact/") continue;
+    check_clean(resolve_shader(std::string(name), include_line(name) + "void main() {}\n", "exact.frag"));
+    ++count;
+  }
+  CHECK(count > 10);
+}
+
+TEST_CASE("bases lint clean, alone and in both techniques made of them") {
+  int count = 0;
+  for (const std::string_view name : builtin_shader_names()) {
+    if (name.substr(0, 6) != "basis/") continue;
+    const std::string array = "uniform vec3 stored[64];\n#define COEF(i) stored[i]\n";
+    check_clean(resolve_shader(std::string(name), array + include_line(name) + "void main() {}\n", "basis.frag"));
+    ++count;
+    if (name.find("functions") != name.npos || name.find("bands") != name.npos) continue;
+    for (const char* storage : {"lightmap", "vertex"}) {
+      const std::string coefficients = std::string("technique/coefficients_") + storage + ".glsl";
+      check_clean(resolve_shader(std::string(name) + " " + storage,
+                                 "#define COEFFICIENTS coefficients_test\n#define COEFFICIENT_COUNT 64\n" +
+                                     include_line("technique/surface.glsl") + include_line(coefficients) +
+                                     include_line(name) + include_line("technique/irradiance_main.glsl"),
+                                 "technique.frag"));
+    }
+  }
+  CHECK(count > 6);
+}
+
+TEST_CASE("techniques of their own lint clean") {
+  int count = 0;
+  for (const std::string_view name : builtin_shader_names()) {
+    if (std::filesystem::path(name).extension() != ".frag") continue;
+    for (const char* storage : {"", "#define TWINSHADE_VERTEX_COEFFICIENTS\n"})
+      check_clean(resolve_shader(std::string(name), storage + include_line(name), "technique.frag"));
+    ++count;
+  }
+  CHECK(count >= 2);
+}
+
+}  // namespace twinshade

@@ -1,0 +1,288 @@
+#include "cpu_shaders/translate/interface.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace twinshade::spirv {
+namespace {
+
+// Uniform blocks up to this size are loaded whole before the first invocation; larger ones are read where they are
+// used.
+constexpr std::uint32_t kLargestLoadedBlock = 4096;
+
+Scalar scalar_of(Kind kind) {
+  switch (kind) {
+    case Kind::integer:
+      return Scalar::i32;
+    case Kind::unsigned_integer:
+      return Scalar::u32;
+    case Kind::boolean:
+      return Scalar::boolean;
+    default:
+      return Scalar::f32;
+  }
+}
+
+class Describer {
+ public:
+  Describer(const Program& program, const SourceLines& lines, NameTable& names)
+      : program_(program), module_(program.module), lines_(lines), names_(names), reflection_(result_.reflection) {}
+
+  Interface run() {
+    find_mentioned();
+    for (Id id : module_.globals) {
+      const Variable& v = module_.variables.at(id);
+      switch (v.storage) {
+        case spv::StorageClassInput:
+          input(v);
+          break;
+        case spv::StorageClassOutput:
+          output(v);
+          break;
+        case spv::StorageClassPrivate:
+          if (mentioned_.count(id)) add(v, Role::global, module_.name(id));
+          break;
+        case spv::StorageClassUniformConstant:
+          uniform_constant(v);
+          break;
+        case spv::StorageClassUniform:
+          block(v);
+          break;
+        default:
+          refuse(module_.name(id), "storage class of " + module_.name(id), "use in, out, uniform or buffer");
+      }
+    }
+    reflection_.uniform_bytes = (reflection_.uniform_bytes + 15) / 16 * 16;
+    for (const auto& [id, info] : program_.functions) {
+      reflection_.discards |= info.discards;
+      reflection_.has_side_effects |= info.writes_buffers;
+      reflection_.uses_derivatives |= info.uses_derivatives;
+    }
+    return std::move(result_);
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& name, const std::string& what, const std::string& remedy) const {
+    throw UserError(lines_.declaration(name).text() + ": " + what + " is not supported: " + remedy);
+  }
+
+  void find_mentioned() {
+    for (const auto& [id, info] : program_.functions)
+      for_each_instruction(info.body.list, [&](const Instruction& i) {
+        for (Id operand : value_operands(i)) mentioned_.insert(operand);
+      });
+  }
+
+  Global& add(const Variable& v, Role role, const std::string& name) {
+    Global g;
+    g.role = role;
+    g.type = v.type;
+    g.name = names_.declare(name);
+    return result_.globals[v.id] = g;
+  }
+
+  // Fills scalar, columns, rows and array length from a type; false if it is something else.
+  template <class Described>
+  bool describe(Id type, Described& d) const {
+    const Type* t = &module_.type(type);
+    if (t->kind == Kind::array) {
+      d.array_length = t->count;
+      t = &module_.type(t->element);
+    }
+    if (t->kind == Kind::matrix) {
+      d.columns = static_cast<std::uint8_t>(t->count);
+      t = &module_.type(t->element);
+    }
+    if (t->kind == Kind::vector) {
+      d.rows = static_cast<std::uint8_t>(t->count);
+      t = &module_.type(t->element);
+    }
+    d.scalar = scalar_of(t->kind);
+    return t->kind == Kind::real || t->kind == Kind::integer || t->kind == Kind::unsigned_integer ||
+           t->kind == Kind::boolean;
+  }
+
+  void input(const Variable& v) {
+    const Decorations& d = module_.decorations_of(v.id);
+    const std::string name = module_.name(v.id);
+    if (d.has(spv::DecorationBuiltIn)) {
+      if (!mentioned_.count(v.id)) return;
+      Global& g = add(v, Role::builtin, name);
+      g.builtin = static_cast<spv::BuiltIn>(d.get(spv::DecorationBuiltIn));
+      switch (g.builtin) {
+        case spv::BuiltInFragCoord:
+          reflection_.uses_frag_coord = true;
+          return;
+        case spv::BuiltInFrontFacing:
+          reflection_.uses_front_facing = true;
+          return;
+        case spv::BuiltInPrimitiveId:
+          reflection_.uses_primitive_id = true;
+          return;
+        case spv::BuiltInHelperInvocation:
+          return;
+        default:
+          refuse(name, "the built-in " + name,
+                 "use gl_FragCoord, gl_FrontFacing, gl_PrimitiveID or gl_HelperInvocation");
+      }
+    }
+    if (module_.type(v.type).kind == Kind::structure)
+      refuse(module_.name(v.type), "an input block or struct (" + (name.empty() ? module_.name(v.type) : name) + ")",
+             "declare its members as separate inputs");
+    if (d.has(spv::DecorationCentroid) || d.has(spv::DecorationSample))
+      refuse(name, "centroid or sample interpolation of " + name,
+             "remove the qualifier: there is one sample, at the pixel centre");
+    ReflectedVariable r;
+    r.name = name;
+    if (!describe(v.type, r)) refuse(name, "the type of input " + name, "use vectors, matrices or arrays of them");
+    r.flat = d.has(spv::DecorationFlat);
+    r.noperspective = d.has(spv::DecorationNoPerspective);
+    r.location = static_cast<std::int32_t>(d.get(spv::DecorationLocation, ~0u));
+    r.first_component = reflection_.input_components;
+    reflection_.input_components += module_.component_count(v.type);
+    reflection_.inputs.push_back(r);
+    add(v, Role::input, name).first_component = r.first_component;
+  }
+
+  void output(const Variable& v) {
+    const Decorations& d = module_.decorations_of(v.id);
+    const std::string name = module_.name(v.id);
+    if (d.has(spv::DecorationBuiltIn)) {
+      if (!mentioned_.count(v.id)) return;
+      if (d.get(spv::DecorationBuiltIn) != spv::BuiltInFragDepth)
+        refuse(name, "the built-in output " + name, "write colours and gl_FragDepth only");
+      reflection_.writes_depth = true;
+      add(v, Role::frag_depth, name);
+      return;
+    }
+    if (d.get(spv::DecorationIndex) != 0 || d.get(spv::DecorationComponent) != 0)
+      refuse(name, "layout(index) or layout(component) of output " + name, "give each output a location of its own");
+    ReflectedVariable r;
+    r.name = name;
+    if (!describe(v.type, r)) refuse(name, "the type of output " + name, "use a scalar, a vector or an array of them");
+    r.location = static_cast<std::int32_t>(d.get(spv::DecorationLocation, ~0u));
+    r.first_component = reflection_.output_components;
+    reflection_.output_components += module_.component_count(v.type);
+    reflection_.outputs.push_back(r);
+    add(v, Role::output, name).first_component = r.first_component;
+  }
+
+  static bool sampler_kind(const Type& image, ResourceKind& kind) {
+    if (image.depth || image.multisampled || image.storage_image) return false;
+    if (image.dimension == spv::Dim2D) {
+      kind = image.arrayed ? ResourceKind::sampler_2d_array : ResourceKind::sampler_2d;
+      return true;
+    }
+    kind = ResourceKind::sampler_cube;
+    return image.dimension == spv::DimCube && !image.arrayed;
+  }
+
+  void uniform_constant(const Variable& v) {
+    const std::string name = module_.name(v.id);
+    const Type& t = module_.type(v.type);
+    const Type& element = t.kind == Kind::array ? module_.type(t.element) : t;
+    if (element.kind == Kind::sampler) {
+      const Type& image = module_.type(element.element);
+      ResourceKind kind;
+      if (!sampler_kind(image, kind) || module_.scalar_kind(image.element) != Kind::real)
+        refuse(name, "the sampler type of " + name, "use sampler2D, sampler2DArray or samplerCube");
+      Global& g = add(v, Role::sampler, name);
+      g.slot = reflection_.texture_count;
+      const std::uint32_t count = t.kind == Kind::array ? t.count : 1;
+      for (std::uint32_t k = 0; k < count; ++k) {
+        ReflectedResource r;
+        r.name = t.kind == Kind::array ? name + "[" + std::to_string(k) + "]" : name;
+        r.kind = kind;
+        r.slot = reflection_.texture_count++;
+        reflection_.resources.push_back(r);
+      }
+      return;
+    }
+    if (holds_opaque(v.type))
+      refuse(name, "an image, or a sampler in a struct or nested array (" + name + ")",
+             "use sampler2D, sampler2DArray or samplerCube uniforms");
+    if (v.initializer != 0)
+      refuse(name, "the initialiser of uniform " + name, "set its value in the bundle, or make it a const");
+    Global& g = add(v, Role::uniform, name);
+    const Layout layout(module_, false);
+    g.offset = (reflection_.uniform_bytes + 15) / 16 * 16;
+    reflection_.uniform_bytes = g.offset + layout.size(v.type);
+    leaves(layout, v.type, name, g.offset);
+  }
+
+  bool holds_opaque(Id type) const {
+    const Type& t = module_.type(type);
+    if (t.kind == Kind::array) return holds_opaque(t.element);
+    if (t.kind == Kind::structure)
+      return std::any_of(t.members.begin(), t.members.end(), [&](Id m) { return holds_opaque(m); });
+    return t.kind == Kind::image || t.kind == Kind::sampler;
+  }
+
+  // Uniforms are set by the path of each leaf: "lights[2].colour".
+  void leaves(const Layout& layout, Id type, const std::string& path, std::uint32_t offset) {
+    const Type& t = module_.type(type);
+    if (t.kind == Kind::structure) {
+      for (std::uint32_t k = 0; k < t.members.size(); ++k)
+        leaves(layout, t.members[k], path + "." + module_.member_names.at({type, k}),
+               offset + layout.member_offset(type, k));
+      return;
+    }
+    ReflectedUniform u;
+    if (!describe(type, u)) {  // arrays of structs and of arrays
+      for (std::uint32_t k = 0; k < t.count; ++k)
+        leaves(layout, t.element, path + "[" + std::to_string(k) + "]", offset + k * layout.array_stride(type));
+      return;
+    }
+    u.name = path;
+    u.offset = offset;
+    u.array_stride = u.array_length != 0 ? layout.array_stride(type) : 0;
+    u.matrix_stride = u.columns > 1 ? 16 : 0;
+    reflection_.uniforms.push_back(u);
+  }
+
+  void block(const Variable& v) {
+    const std::string name = module_.name(v.type);
+    const bool storage = module_.decorations_of(v.type).has(spv::DecorationBufferBlock);
+    if (module_.type(v.type).kind != Kind::structure)
+      refuse(module_.name(v.id), "an array of blocks (" + module_.name(v.id) + ")",
+             "declare one block with an array in it");
+    const Layout layout(module_, true);
+    ReflectedResource r;
+    r.name = name;
+    r.kind = storage ? ResourceKind::storage_buffer : ResourceKind::uniform_block;
+    r.slot = reflection_.buffer_count++;
+    r.minimum_size = layout.size(v.type);
+    r.read_only = !storage || read_only(v);
+    reflection_.resources.push_back(r);
+    const bool loaded = !storage && r.minimum_size <= kLargestLoadedBlock;
+    const std::string instance = module_.name(v.id);
+    Global& g = add(v, loaded ? Role::uniform : Role::buffer, instance.empty() ? name : instance);
+    g.slot = r.slot;
+    g.in_block = true;
+  }
+
+  bool read_only(const Variable& v) const {
+    if (module_.decorations_of(v.id).has(spv::DecorationNonWritable)) return true;
+    const auto& members = module_.type(v.type).members;
+    for (std::uint32_t k = 0; k < members.size(); ++k)
+      if (!module_.member(v.type, k).has(spv::DecorationNonWritable)) return false;
+    return true;
+  }
+
+  const Program& program_;
+  const Module& module_;
+  const SourceLines& lines_;
+  NameTable& names_;
+  Interface result_;
+  Reflection& reflection_;
+  std::set<Id> mentioned_;
+};
+
+}  // namespace
+
+Interface describe_interface(const Program& program, const SourceLines& lines, NameTable& names) {
+  return Describer(program, lines, names).run();
+}
+
+}  // namespace twinshade::spirv

@@ -1,0 +1,57 @@
+#include "cpu_shaders/translate/names.h"
+
+namespace twinshade::spirv {
+namespace {
+
+const std::set<std::string>& reserved() {
+  static const std::set<std::string> words = {
+      // C++
+      "alignas", "alignof", "and", "and_eq", "asm", "auto", "bitand", "bitor", "bool", "break", "case", "catch", "char",
+      "char8_t", "char16_t", "char32_t", "class", "compl", "concept", "const", "consteval", "constexpr", "constinit",
+      "const_cast", "continue", "co_await", "co_return", "co_yield", "decltype", "default", "delete", "do", "double",
+      "dynamic_cast", "else", "enum", "explicit", "export", "extern", "false", "float", "for", "friend", "goto", "if",
+      "inline", "int", "long", "mutable", "namespace", "new", "noexcept", "not", "not_eq", "nullptr", "operator", "or",
+      "or_eq", "private", "protected", "public", "register", "reinterpret_cast", "requires", "return", "short",
+      "signed", "sizeof", "static", "static_assert", "static_cast", "struct", "switch", "template", "this",
+      "thread_local", "throw", "true", "try", "typedef", "typeid", "typename", "union", "unsigned", "using", "virtual",
+      "void", "volatile", "wchar_t", "while", "xor", "xor_eq", "final", "override", "std", "main", "NULL", "assert",
+      // the runtime and the frame of the generated file
+      "F", "I", "U", "B", "UF", "UI", "UU", "UB", "N", "K", "V", "Base", "Shader", "Varying", "Uniform", "twinshade",
+      "glsl", "served", "vec", "mat", "arr", "table", "vec2", "vec3", "vec4", "ivec2", "ivec3", "ivec4", "uvec2",
+      "uvec3", "uvec4", "bvec2", "bvec3", "bvec4", "mat2", "mat3", "mat4", "sampler2D", "sampler2DArray", "samplerCube",
+      "select", "assign", "any", "all", "none", "lookup", "store_lookup", "update", "leave", "swizzle", "load", "store",
+      "to_float", "to_int", "to_uint", "to_bool", "float_as_int", "float_as_uint", "int_as_float", "uint_as_float",
+      "constant", "input", "output", "frag_coord", "front_facing", "primitive_id", "live", "frag_depth", "kept",
+      "begin", "finish", "run", "texture_2d", "texture_2d_array", "texture_cube", "buffer", "uniforms", "data", "call",
+      "first", "memory", "array_length", "map", "Lane", "Vec", "Mat", "Arr", "Lanes", "Scalar32", "Scalar64", "Quad32",
+      "Quad64", "Plain", "Simd", "SimdMask", "BufferView", "TextureView", "ShaderData", "ShadeCall", "ShaderBase",
+      "ShaderEntry", "ShaderModule", "number", "detail", "registers", "bundle", "portable"};
+  return words;
+}
+
+}  // namespace
+
+NameTable::NameTable() { open(); }
+
+bool NameTable::taken(const std::string& name) const {
+  if (reserved().count(name) || name.rfind("uniform_", 0) == 0 || name.rfind("TWINSHADE_", 0) == 0) return true;
+  for (const auto& scope : scopes_)
+    if (scope.count(name)) return true;
+  return false;
+}
+
+std::string NameTable::declare(const std::string& wanted) {
+  std::string name = wanted.empty() ? "unnamed" : wanted;
+  // Two underscores in a row are reserved in C++ as in GLSL, where they only warn.
+  for (std::size_t at = name.find("__"); at != std::string::npos; at = name.find("__")) name.erase(at, 1);
+  if (name[0] == '_') name.insert(0, "x");
+  if (taken(name)) {
+    const std::string base = name + '_';
+    name = base;
+    for (int k = 2; taken(name); ++k) name = base + std::to_string(k);
+  }
+  scopes_.back().insert(name);
+  return name;
+}
+
+}  // namespace twinshade::spirv

@@ -1,0 +1,63 @@
+#include "cpu_shaders/translate/source_lines.h"
+
+#include <cctype>
+#include <sstream>
+
+namespace twinshade {
+namespace {
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t\r");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
+
+bool has_word(const std::string& text, const std::string& word) {
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+    const bool starts = at == 0 || !is_word(text[at - 1]);
+    const bool ends = at + word.size() == text.size() || !is_word(text[at + word.size()]);
+    if (starts && ends) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+SourceLines::SourceLines(const ShaderSource& source) {
+  std::istringstream lines(source.text);
+  std::string text, file = source.files.empty() ? source.name : source.files[0];
+  int number = 0;
+  while (std::getline(lines, text)) {
+    ++number;
+    if (text.rfind("#line ", 0) == 0) {
+      const std::size_t space = text.find(' ', 6);
+      number = std::stoi(text.substr(6)) - 1;
+      if (space != std::string::npos) file = text.substr(space + 2, text.size() - space - 3);
+      continue;
+    }
+    lines_.push_back({file, trimmed(text), number});
+    index_[{file, number}] = lines_.size() - 1;
+  }
+}
+
+const std::string& SourceLines::text(const std::string& file, int line) const {
+  static const std::string none;
+  const auto found = index_.find({file, line});
+  return found == index_.end() ? none : lines_[found->second].text;
+}
+
+spirv::Position SourceLines::declaration(const std::string& name) const {
+  const Line* mention = nullptr;
+  for (const Line& line : lines_) {
+    if (!has_word(line.text, name)) continue;
+    for (const char* qualifier : {"uniform", "in", "out", "buffer", "layout", "flat", "const", "shared"})
+      if (has_word(line.text, qualifier)) return {line.file, line.number};
+    if (mention == nullptr) mention = &line;
+  }
+  if (mention != nullptr) return {mention->file, mention->number};
+  return {lines_.empty() ? std::string("shader") : lines_.front().file, 1};
+}
+
+}  // namespace twinshade

@@ -12,7 +12,7 @@ class AlignedArray {
  public:
   AlignedArray() = default;
   explicit AlignedArray(std::size_t count)
-      : data_(static_cast<T*>(::operator new(count * sizeof(T), std::align_val_t{kLine}))) {
+      : data_(static_cast<T*>(::operator new (count * sizeof(T), std::align_val_t{kLine}))) {
     std::uninitialized_value_construct_n(data_.get(), count);
   }
   T* data() { return data_.get(); }
@@ -23,7 +23,7 @@ class AlignedArray {
  private:
   static constexpr std::size_t kLine = 64;
   struct Free {
-    void operator()(T* p) const { ::operator delete(p, std::align_val_t{kLine}); }
+    void operator()(T* p) const { ::operator delete (p, std::align_val_t{kLine}); }
   };
   std::unique_ptr<T, Free> data_;
 };

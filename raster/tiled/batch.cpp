@@ -83,8 +83,7 @@ std::uint32_t Batch::kept(std::uint32_t quad) const {
 
 float Batch::frag_depth(std::uint32_t quad, std::uint32_t pixel) const {
   const std::size_t i = 4 * std::size_t(quad) + pixel;
-  const float depth =
-      draw_.float64() ? float(frag_depth_[i]) : reinterpret_cast<const float*>(frag_depth_.data())[i];
+  const float depth = draw_.float64() ? float(frag_depth_[i]) : reinterpret_cast<const float*>(frag_depth_.data())[i];
   return depth > 0 ? (depth < 1 ? depth : 1.0f) : 0.0f;  // NaN: 0
 }
 
@@ -98,7 +97,7 @@ void Batch::store_as(const R* outputs, const R* inputs, std::uint32_t quad, std:
     const std::size_t pixel =
         (quads_[quad].y + std::size_t(i >> 1)) * frame.width + quads_[quad].x + std::size_t(i & 1);
     for (std::uint32_t c = 0; c < 4; ++c) {
-      const R value = c < components ? color[std::size_t(c) * kStride + i] : R(c == 3 && components > 0 ? 1 : 0);
+      const R value = c < components ? color[std::size_t(c) * kStride + i] : R(0);
       frame.color[4 * pixel + c] = float(value);
       if constexpr (sizeof(R) == sizeof(double)) frame.color64[4 * pixel + c] = value;
     }
@@ -108,8 +107,10 @@ void Batch::store_as(const R* outputs, const R* inputs, std::uint32_t quad, std:
       const R value = inputs[std::size_t(c) * kStride + 4 * quad + i];
       float stored = float(value);
       if constexpr (sizeof(R) == sizeof(double)) {  // integers came as values, and leave by bit pattern
-        if (draw_.bound.input_scalars[c] == Scalar::i32) stored = std::bit_cast<float>(std::int32_t(value));
-        else if (draw_.bound.input_scalars[c] != Scalar::f32) stored = std::bit_cast<float>(std::uint32_t(value));
+        if (draw_.bound.input_scalars[c] == Scalar::i32)
+          stored = std::bit_cast<float>(std::int32_t(value));
+        else if (draw_.bound.input_scalars[c] != Scalar::f32)
+          stored = std::bit_cast<float>(std::uint32_t(value));
       }
       frame.attributes[c * pixels + pixel] = stored;
     }

@@ -1,5 +1,6 @@
 // Clipping, setup and binning of all primitives (sort-middle with tile bins; Molnar et al., A sorting classification of
-// parallel rendering, 1994). Chunks of primitives in parallel; each tile's bin is in primitive order whatever the threads do.
+// parallel rendering, 1994). Chunks of primitives in parallel; each tile's bin is in primitive order whatever the
+// threads do.
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -34,8 +35,13 @@ class ChunkSetup {
  public:
   ChunkSetup(const Bundle& bundle, const BoundDraw& draw, AttributeMode mode, const TileGrid& grid,
              const Geometry& geometry, TriangleChunk& chunk)
-      : bundle_(bundle), draw_(draw), native_(mode == AttributeMode::native), grid_(grid), geometry_(geometry),
-        chunk_(chunk), viewport_(make_viewport(bundle.width, bundle.height)) {}
+      : bundle_(bundle),
+        draw_(draw),
+        native_(mode == AttributeMode::native),
+        grid_(grid),
+        geometry_(geometry),
+        chunk_(chunk),
+        viewport_(make_viewport(bundle.width, bundle.height)) {}
 
   void run(std::size_t begin, std::size_t end) {
     chunk_.triangles.clear();
@@ -113,8 +119,7 @@ class ChunkSetup {
   // t for noperspective inputs: where the new vertex is between the two on the screen.
   float screen_space_t(const ClippedTriangle& clipped, const std::uint32_t index[3], const NewVertex& v) const {
     const auto position = [&](std::uint8_t number) {
-      return number < 3 ? &bundle_.clip_positions[std::size_t(index[number]) * 4]
-                        : clipped.added[number - 3].position;
+      return number < 3 ? &bundle_.clip_positions[std::size_t(index[number]) * 4] : clipped.added[number - 3].position;
     };
     const float* from = position(v.from);
     const float* to = position(v.to);

@@ -16,9 +16,12 @@ std::string type_name(Scalar scalar, std::uint32_t columns, std::uint32_t rows, 
   static constexpr const char* kScalars[] = {"float", "int", "uint", "bool"};
   static constexpr const char* kPrefixes[] = {"", "i", "u", "b"};
   std::string name = columns > 1 ? "mat" : kPrefixes[int(scalar)];
-  if (columns > 1) name.append(std::to_string(columns)).append("x").append(std::to_string(rows));
-  else if (rows > 1) name.append("vec").append(std::to_string(rows));
-  else name = kScalars[int(scalar)];
+  if (columns > 1)
+    name.append(std::to_string(columns)).append("x").append(std::to_string(rows));
+  else if (rows > 1)
+    name.append("vec").append(std::to_string(rows));
+  else
+    name = kScalars[int(scalar)];
   if (array_length > 0) name.append("[").append(std::to_string(array_length)).append("]");
   return name;
 }
@@ -74,8 +77,9 @@ class Binder {
       for (std::uint32_t element = 0; element < std::max(1u, input.array_length); ++element)
         for (std::uint32_t column = 0; column < input.columns; ++column, component += input.rows)
           bind_attribute(input, attribute_name(input, element, column), component,
-                         flat ? Interpolation::flat
-                              : input.noperspective ? Interpolation::linear : Interpolation::smooth);
+                         flat                  ? Interpolation::flat
+                         : input.noperspective ? Interpolation::linear
+                                               : Interpolation::smooth);
     }
   }
 
@@ -84,8 +88,8 @@ class Binder {
     const Attribute* attribute = bundle_.find_attribute(name);
     if (!attribute) fail("input " + quoted(name) + " is not in the bundle; " + inventory(bundle_.attributes));
     if (attribute->scalar != input.scalar || attribute->components != input.rows)
-      fail("input " + quoted(name) + " is a " + type_name(input.scalar, 1, input.rows, 0) +
-           ", but the bundle's attribute is a " + type_name(attribute->scalar, 1, attribute->components, 0));
+      fail("input " + quoted(name) + " is declared " + type_name(input.scalar, 1, input.rows, 0) +
+           ", but the bundle's attribute is " + type_name(attribute->scalar, 1, attribute->components, 0));
     const std::size_t stride = module_.input_components;
     for (std::size_t v = 0; v < bundle_.vertex_count(); ++v)
       std::copy_n(&attribute->values[v * input.rows], input.rows, &draw_.vertex_inputs[v * stride + component]);
@@ -106,7 +110,7 @@ class Binder {
       const std::string wanted_type = type_name(wanted.scalar, wanted.columns, wanted.rows, wanted.array_length);
       const std::string type = type_name(uniform->scalar, uniform->columns, uniform->rows, uniform->array_length);
       if (type != wanted_type)
-        fail("uniform " + quoted(wanted.name) + " is a " + wanted_type + ", but the bundle's is a " + type);
+        fail("uniform " + quoted(wanted.name) + " is declared " + wanted_type + ", but the bundle's is " + type);
       const float* value = uniform->values.data();
       for (std::uint32_t element = 0; element < std::max(1u, wanted.array_length); ++element)
         for (std::uint32_t column = 0; column < wanted.columns; ++column, value += wanted.rows)
@@ -123,11 +127,21 @@ class Binder {
     for (std::uint32_t i = 0; i < module_.resource_count; ++i) {
       const ShaderResource& wanted = module_.resources[i];
       switch (wanted.kind) {
-        case ResourceKind::uniform_block: bind_buffer(wanted, false); break;
-        case ResourceKind::storage_buffer: bind_buffer(wanted, true); break;
-        case ResourceKind::sampler_2d: bind_texture(wanted, TextureKind::two_d, "sampler2D"); break;
-        case ResourceKind::sampler_2d_array: bind_texture(wanted, TextureKind::two_d_array, "sampler2DArray"); break;
-        case ResourceKind::sampler_cube: bind_texture(wanted, TextureKind::cube, "samplerCube"); break;
+        case ResourceKind::uniform_block:
+          bind_buffer(wanted, false);
+          break;
+        case ResourceKind::storage_buffer:
+          bind_buffer(wanted, true);
+          break;
+        case ResourceKind::sampler_2d:
+          bind_texture(wanted, TextureKind::two_d, "sampler2D");
+          break;
+        case ResourceKind::sampler_2d_array:
+          bind_texture(wanted, TextureKind::two_d_array, "sampler2DArray");
+          break;
+        case ResourceKind::sampler_cube:
+          bind_texture(wanted, TextureKind::cube, "samplerCube");
+          break;
       }
     }
   }
@@ -152,7 +166,8 @@ class Binder {
     const Texture* texture = bundle_.find_texture(wanted.name);
     if (!texture) fail("texture " + quoted(wanted.name) + " is not in the bundle; " + inventory(bundle_.textures));
     if (texture->kind != kind)
-      fail(std::string(sampler) + " " + quoted(wanted.name) + " does not fit the bundle's " + kKinds[int(texture->kind)]);
+      fail(std::string(sampler) + " " + quoted(wanted.name) + " does not fit the bundle's " +
+           kKinds[int(texture->kind)]);
     TextureView& view = draw_.textures[wanted.slot];
     view.texels = texture->texels.data();
     view.width = std::int32_t(texture->width);

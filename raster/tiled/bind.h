@@ -15,12 +15,12 @@ struct BoundDraw {
   // Shader inputs of all vertices, interleaved: component c of vertex v at [v * input_components + c].
   std::vector<float> vertex_inputs;
   std::uint32_t input_components = 0;
-  std::vector<Interpolation> interpolation;   // of each component
-  std::vector<Scalar> input_scalars;          // of each component
-  std::vector<std::string> component_names;   // "v_uv.x" ...
+  std::vector<Interpolation> interpolation;  // of each component
+  std::vector<Scalar> input_scalars;         // of each component
+  std::vector<std::string> component_names;  // "v_uv.x" ...
 
   std::vector<std::byte> uniforms;
-  std::vector<TextureView> textures;          // their texels stay the bundle's
+  std::vector<TextureView> textures;                 // their texels stay the bundle's
   std::vector<std::vector<std::byte>> buffer_bytes;  // copies: what a shader writes is gone after the draw
   std::vector<std::string> buffer_names;
   std::vector<BufferView> buffers;

@@ -32,8 +32,10 @@ ClippedTriangle clip_triangle(const float positions[12], std::uint32_t outside) 
     int kept_count = 0;
     bool too_many = result.count >= kMostPolygonVertices;
     const auto keep = [&](std::uint8_t v) {
-      if (kept_count == kMostPolygonVertices) too_many = true;
-      else kept[std::size_t(kept_count++)] = v;
+      if (kept_count == kMostPolygonVertices)
+        too_many = true;
+      else
+        kept[std::size_t(kept_count++)] = v;
     };
     // The point where the edge leaves the plane's inside, measured from its end that is nearer to the plane.
     const auto cut = [&](std::uint8_t near_end, float near_distance, std::uint8_t far_end, float t_denominator) {
@@ -63,8 +65,10 @@ ClippedTriangle clip_triangle(const float positions[12], std::uint32_t outside) 
       if (previous_inside != !(distance < 0)) {
         const float difference = distance - previous_distance;
         const bool vertex_is_nearer = distance < 0 ? -distance < previous_distance : !(-previous_distance < distance);
-        if (vertex_is_nearer) cut(vertex, distance, previous, difference);
-        else cut(previous, -previous_distance, vertex, difference);
+        if (vertex_is_nearer)
+          cut(vertex, distance, previous, difference);
+        else
+          cut(previous, -previous_distance, vertex, difference);
       }
       previous = vertex;
       previous_distance = distance;

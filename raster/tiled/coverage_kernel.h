@@ -1,5 +1,6 @@
-// Which pixels a triangle covers and how deep it is there. Hierarchy: superblocks of 16 x 16 pixels in 64-bit arithmetic,
-// then blocks of 4 x 4, then pixels in 32 bits, W at a time (after Abrash, Rasterization on Larrabee, 2009).
+// Which pixels a triangle covers and how deep it is there. Hierarchy: superblocks of 16 x 16 pixels in 64-bit
+// arithmetic, then blocks of 4 x 4, then pixels in 32 bits, W at a time (after Abrash, Rasterization on Larrabee,
+// 2009).
 #pragma once
 
 #include "cpu_shaders/runtime/numbers.h"
@@ -16,7 +17,8 @@ alignas(64) inline constexpr std::int32_t kPixelY[16] = {0, 0, 1, 1, 0, 0, 1, 1,
 alignas(64) inline constexpr std::int32_t kBlockX[16] = {0, 4, 8, 12, 0, 4, 8, 12, 0, 4, 8, 12, 0, 4, 8, 12};
 alignas(64) inline constexpr std::int32_t kBlockY[16] = {0, 0, 0, 0, 4, 4, 4, 4, 8, 8, 8, 8, 12, 12, 12, 12};
 
-// Edge values are cut off here: farther from 0 than any step within a superblock (15 * (|a| + |b|) < 2^29) can lead back.
+// Edge values are cut off here: farther from 0 than any step within a superblock (15 * (|a| + |b|) < 2^29) can lead
+// back.
 inline constexpr std::int64_t kEdgeLimit = std::int64_t{1} << 30;
 
 // Calls block(pixel index in the tile, x, y, inside) for each group of W pixels of which some are covered; x and y are
@@ -65,8 +67,8 @@ TWINSHADE_INLINE void for_each_covered_group(const RasterTriangle& t, const Cove
       std::uint32_t blocks = columns & (0xffffu >> (12 - 4 * to_row)) & (0xffffu << 4 * from_row);
       std::uint32_t maybe = 0;
       for (int g = 0; g < kGroups; ++g) {
-        const I nearest = (I(edge[0]) + block_step[0][g]) | (I(edge[1]) + block_step[1][g]) |
-                          (I(edge[2]) + block_step[2][g]);
+        const I nearest =
+            (I(edge[0]) + block_step[0][g]) | (I(edge[1]) + block_step[1][g]) | (I(edge[2]) + block_step[2][g]);
         maybe |= (nearest >= I(0)).bits() << (g * W);
       }
       blocks &= maybe;
@@ -79,8 +81,8 @@ TWINSHADE_INLINE void for_each_covered_group(const RasterTriangle& t, const Cove
         I start[3];
         for (int e = 0; e < 3; ++e) start[e] = I(edge[e] + t.a[e] * block_x + t.b[e] * block_y);
         for (int g = 0; g < kGroups; ++g) {
-          auto inside = ((start[0] + pixel_step[0][g]) | (start[1] + pixel_step[1][g]) |
-                         (start[2] + pixel_step[2][g])) >= I(0);
+          auto inside =
+              ((start[0] + pixel_step[0][g]) | (start[1] + pixel_step[1][g]) | (start[2] + pixel_step[2][g])) >= I(0);
           if (frame_x + 3 >= tile.frame_width || frame_y + 3 >= tile.frame_height)
             inside = inside & (I::load(kPixelX + g * W) < I(std::int32_t(tile.frame_width - frame_x))) &
                      (I::load(kPixelY + g * W) < I(std::int32_t(tile.frame_height - frame_y)));
@@ -90,7 +92,8 @@ TWINSHADE_INLINE void for_each_covered_group(const RasterTriangle& t, const Cove
     }
 }
 
-// Depth of a native triangle: the plane through its window z, evaluated as Mesa does where it has no fused multiply-add.
+// Depth of a native triangle: the plane through its window z, evaluated as Mesa does where it has no fused
+// multiply-add.
 template <int W>
 struct NativeDepth {
   using F = Simd<float, W>;
@@ -156,8 +159,10 @@ void cover_all(const CoverTile& tile) {
 template <int W>
 void cover(const CoverTile& tile) {
   if (tile.count == 0) return;
-  if (tile.primitives->native) cover_all<W, NativeDepth>(tile);
-  else cover_all<W, ExactDepth>(tile);
+  if (tile.primitives->native)
+    cover_all<W, NativeDepth>(tile);
+  else
+    cover_all<W, ExactDepth>(tile);
 }
 
 template <int W, template <int> class Depth>

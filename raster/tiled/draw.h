@@ -81,14 +81,14 @@ class TileWorker {
  private:
   struct VisibleQuad {
     std::uint32_t local;
-    std::uint16_t quad;      // index in the tile's memory / 4
+    std::uint16_t quad;  // index in the tile's memory / 4
     std::uint16_t coverage;
   };
 
   void gather_triangles(std::uint32_t tile);
-  void shade_visible();          // shade_pass.cpp
+  void shade_visible();  // shade_pass.cpp
   void collect_visible_quads();
-  void shade_in_order();         // in_order_pass.cpp
+  void shade_in_order();  // in_order_pass.cpp
   void resolve_in_order();
   void store_tile();
 
@@ -106,9 +106,9 @@ class TileWorker {
   std::vector<std::uint32_t> locals_;
   std::vector<LocalPrimitive> primitives_;
 
-  std::vector<VisibleQuad> found_, sorted_;     // shade_pass.cpp
+  std::vector<VisibleQuad> found_, sorted_;  // shade_pass.cpp
   std::vector<std::uint32_t> place_of_local_;
-  std::vector<CoveredQuad> covered_;            // in_order_pass.cpp
+  std::vector<CoveredQuad> covered_;  // in_order_pass.cpp
   std::vector<CoveredQuad> batch_quads_;
 };
 

@@ -43,7 +43,8 @@ Isa machine_isa() {
 const ShaderEntry& choose_entry(const ShaderModule& module, Number number, std::optional<Isa> isa) {
   const Isa machine = machine_isa();
   if (isa && *isa > machine)
-    throw UserError(std::string("this processor has no ") + isa_name(*isa) + ": the best it has is " + isa_name(machine));
+    throw UserError(std::string("this processor has no ") + isa_name(*isa) + ": the best it has is " +
+                    isa_name(machine));
   const ShaderEntry* entry = find_entry(module, number, isa.value_or(machine));
   if (!isa && number == Number::lanes16 && machine == Isa::avx2) {
     const ShaderEntry* natural = find_entry(module, Number::lanes8, machine);

@@ -1,5 +1,5 @@
-// Exact attributes: shaders/exact/attributes.glsl operation by operation, for W pixels of one primitive. That file is the
-// definition; a test holds this one to its translation bit for bit.
+// Exact attributes: shaders/exact/attributes.glsl operation by operation, for W pixels of one primitive. That file is
+// the definition; a test holds this one to its translation bit for bit.
 #pragma once
 
 #include "cpu_shaders/runtime/numbers.h"

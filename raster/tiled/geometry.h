@@ -22,10 +22,10 @@ struct TriangleChunk {
     std::uint32_t tile, triangle;  // index into triangles
   };
   std::vector<RasterTriangle> triangles;
-  std::vector<NativeTriangle> native;       // as triangles, or empty with exact attributes
-  std::vector<float> clipped_inputs;        // rows of BoundDraw::input_components
+  std::vector<NativeTriangle> native;  // as triangles, or empty with exact attributes
+  std::vector<float> clipped_inputs;   // rows of BoundDraw::input_components
   std::vector<Reference> references;
-  std::vector<std::uint32_t> tile_counts;   // references to each tile, then where this chunk's begin in Geometry::bins
+  std::vector<std::uint32_t> tile_counts;  // references to each tile, then where this chunk's begin in Geometry::bins
 };
 
 // A triangle, as bins hold it: chunk in the upper bits, index in the lower ones.
@@ -41,8 +41,8 @@ struct Geometry {
   std::vector<WindowVertex> vertices;
   std::vector<WindowPosition> positions;  // native attributes only
   std::vector<TriangleChunk> chunks;
-  std::vector<TriangleRef> bins;          // of all tiles, in primitive order within each
-  std::vector<std::uint32_t> bin_begin;   // of each tile, and the end of the last
+  std::vector<TriangleRef> bins;         // of all tiles, in primitive order within each
+  std::vector<std::uint32_t> bin_begin;  // of each tile, and the end of the last
 };
 
 // In parallel, with denormals flushed.

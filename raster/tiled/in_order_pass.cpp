@@ -1,5 +1,6 @@
-// Shaders that discard, write gl_FragDepth or have side effects: each covered quad is shaded, in primitive order, before the
-// depth test decides. Batches hold quads of several triangles; the depth test then goes through them in order.
+// Shaders that discard, write gl_FragDepth or have side effects: each covered quad is shaded, in primitive order,
+// before the depth test decides. Batches hold quads of several triangles; the depth test then goes through them in
+// order.
 #include "cpu_shaders/runtime/denormals.h"
 #include "raster/tiled/draw.h"
 

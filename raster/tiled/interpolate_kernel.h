@@ -1,5 +1,5 @@
-// Shader inputs of quads. Quads of one primitive follow each other, so its vertex data is broadcast; runs are written in
-// order in whole vectors, each run's last one spilling into the next run's place before that is written.
+// Shader inputs of quads. Quads of one primitive follow each other, so its vertex data is broadcast; runs are written
+// in order in whole vectors, each run's last one spilling into the next run's place before that is written.
 #pragma once
 
 #include "raster/tiled/exact_kernel.h"
@@ -11,7 +11,8 @@ inline namespace TWINSHADE_ISA_NAMESPACE {
 
 inline constexpr std::uint8_t kSmooth = 0, kLinear = 1;  // as enum Interpolation
 
-// An input that does not vary over the primitive, as the shader's number holds it: an integer's bits, or its value in double.
+// An input that does not vary over the primitive, as the shader's number holds it: an integer's bits, or its value in
+// double.
 template <class R>
 TWINSHADE_INLINE R flat_value(float stored, std::uint8_t scalar) {
   if constexpr (sizeof(R) == sizeof(float)) {
@@ -53,8 +54,10 @@ class QuadInterpolator {
       std::uint32_t end = begin + 1;
       while (end < call_.count && call_.quads[end].local == call_.quads[begin].local) ++end;
       const LocalPrimitive& primitive = call_.primitives[call_.quads[begin].local];
-      if (call_.native) native(primitive, 4 * begin, 4 * end);
-      else exact(primitive, 4 * begin, 4 * end);
+      if (call_.native)
+        native(primitive, 4 * begin, 4 * end);
+      else
+        exact(primitive, 4 * begin, 4 * end);
       begin = end;
     }
     if (frag_coord_)
@@ -73,7 +76,8 @@ class QuadInterpolator {
     for (int v = 0; v < 3; ++v) row[v] = vertices.inputs + std::size_t(index[v]) * vertices.input_components;
     for (std::uint32_t i = begin; i < end; i += kWidth) {
       const F x = F::load(center_x_ + i), y = F::load(center_y_ + i);
-      const ExactPoint<F> p = triangle.at(x * F(R(vertices.ndc_scale_x)) - F(R(1)), y * F(R(vertices.ndc_scale_y)) - F(R(1)));
+      const ExactPoint<F> p =
+          triangle.at(x * F(R(vertices.ndc_scale_x)) - F(R(1)), y * F(R(vertices.ndc_scale_y)) - F(R(1)));
       const F r = F(R(1)) / p.sum;
       const F weight0 = p.e0 * r, weight1 = p.e1 * r, weight2 = p.e2 * r;
       for (std::uint32_t c = 0; c < vertices.input_components; ++c) {
@@ -108,9 +112,12 @@ class QuadInterpolator {
       for (std::uint32_t i = begin; i < end; i += kWidth) {
         const F x = F::load(center_x_ + i) - F(R(0.5)), y = F::load(center_y_ + i) - F(R(0.5));
         F value;
-        if (how == kSmooth) value = plane.at(x, y) * (F(R(1)) / reciprocal_w.at(x, y));
-        else if (how == kLinear) value = plane.at(x, y);
-        else value = F(constant);
+        if (how == kSmooth)
+          value = plane.at(x, y) * (F(R(1)) / reciprocal_w.at(x, y));
+        else if (how == kLinear)
+          value = plane.at(x, y);
+        else
+          value = F(constant);
         value.store(inputs_ + std::size_t(c) * call_.stride + i);
       }
     }

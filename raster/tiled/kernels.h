@@ -10,39 +10,40 @@
 
 namespace twinshade::tiled {
 
-// Order of pixels in a tile's memory: superblocks of 16 x 16 by rows; in each, blocks of 4 x 4 by rows; in each, 2 x 2 quads
-// by rows; in each, (x,y) (x+1,y) (x,y+1) (x+1,y+1). So a quad, two quads and a block are 4, 8 and 16 neighbours in memory.
+// Order of pixels in a tile's memory: superblocks of 16 x 16 by rows; in each, blocks of 4 x 4 by rows; in each, 2 x 2
+// quads by rows; in each, (x,y) (x+1,y) (x,y+1) (x+1,y+1). So a quad, two quads and a block are 4, 8 and 16 neighbours
+// in memory.
 inline constexpr std::uint32_t kSuperblock = 16;
 inline constexpr std::uint32_t kNotVisible = 0xffffffffu;
 
 // A primitive (exact attributes) or a triangle (native ones: clipping may make several of a primitive) in a tile.
 struct LocalPrimitive {
   std::uint32_t primitive;
-  const NativeTriangle* native;   // null with exact attributes
-  const float* clipped_inputs;    // of the native triangle's chunk
-  std::uint32_t front_facing;     // native only
+  const NativeTriangle* native;  // null with exact attributes
+  const float* clipped_inputs;   // of the native triangle's chunk
+  std::uint32_t front_facing;    // native only
 };
 
 // Vertex data as the arithmetic of shaders/exact/attributes.glsl reads it.
 struct VertexData {
-  const float* clip_positions;    // 4 a vertex
-  const std::uint32_t* indices;   // 3 a primitive
-  const float* inputs;            // input_components a vertex
+  const float* clip_positions;   // 4 a vertex
+  const std::uint32_t* indices;  // 3 a primitive
+  const float* inputs;           // input_components a vertex
   std::uint32_t input_components;
-  float ndc_scale_x, ndc_scale_y; // 2 / viewport: ndc = pixel centre * scale - 1, exactly
+  float ndc_scale_x, ndc_scale_y;  // 2 / viewport: ndc = pixel centre * scale - 1, exactly
 };
 
 // Triangles of one tile in primitive order.
 struct CoverTile {
   const RasterTriangle* const* triangles;
-  const std::uint32_t* locals;            // of each, index into the tile's LocalPrimitives
+  const std::uint32_t* locals;  // of each, index into the tile's LocalPrimitives
   std::uint32_t count;
   const LocalPrimitive* primitives;
   const VertexData* vertices;
-  std::uint32_t x, y, size;               // lower left pixel; tile size
+  std::uint32_t x, y, size;  // lower left pixel; tile size
   std::uint32_t frame_width, frame_height;
-  float* depth;                           // of the tile
-  std::uint32_t* visible;                 // local index, or kNotVisible
+  float* depth;            // of the tile
+  std::uint32_t* visible;  // local index, or kNotVisible
 };
 
 // A quad with at least one covered pixel, as in_order shading takes it.
@@ -53,8 +54,8 @@ struct CoveredQuad {
 };
 
 struct ShadeQuad {
-  std::uint16_t x, y;    // its lower left pixel, in the frame
-  std::uint32_t local;   // index into the tile's LocalPrimitives
+  std::uint16_t x, y;   // its lower left pixel, in the frame
+  std::uint32_t local;  // index into the tile's LocalPrimitives
 };
 
 // Inputs of the invocations of `count` quads. Arrays are structures of arrays with room for 16 elements past 4 * count.
@@ -67,11 +68,11 @@ struct InterpolateQuads {
   const std::uint8_t* scalars;        // Scalar of each
   bool native;
   std::uint32_t stride;
-  void* center_x;                     // scratch: pixel centres
+  void* center_x;  // scratch: pixel centres
   void* center_y;
-  void* inputs;                       // real: float, or double for the float64 kernel
-  void* frag_coord;                   // real, or null
-  std::uint32_t* front_facing;        // or null
+  void* inputs;                 // real: float, or double for the float64 kernel
+  void* frag_coord;             // real, or null
+  std::uint32_t* front_facing;  // or null
 };
 
 struct Kernels {
@@ -79,7 +80,8 @@ struct Kernels {
   Number number;
   // Covers and depth-tests all triangles; leaves depth and visible.
   void (*cover)(const CoverTile&);
-  // Covers triangle `which` alone. With early_depth_test, pixels that fail it now are left out. Returns how many quads it wrote.
+  // Covers triangle `which` alone. With early_depth_test, pixels that fail it now are left out. Returns how many quads
+  // it wrote.
   std::uint32_t (*cover_one)(const CoverTile&, std::uint32_t which, bool early_depth_test, CoveredQuad* out);
   void (*interpolate)(const InterpolateQuads&);
 };

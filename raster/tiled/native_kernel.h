@@ -19,7 +19,7 @@ struct Plane {
 
 template <class R>
 struct PlaneSetup {
-  R x0, y0;  // of the first vertex, from the centre of pixel (0, 0)
+  R x0, y0;                  // of the first vertex, from the centre of pixel (0, 0)
   R dx01, dy01, dx20, dy20;  // over twice the area
   R reciprocal_w[3];
 

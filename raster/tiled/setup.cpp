@@ -22,7 +22,8 @@ bool set_up_triangle(const WindowVertex v[3], const TileGrid& grid, bool cull_ba
   }
   out.front_facing = area > 0 ? ~0u : 0u;
 
-  // Pixel centres are multiples of kSubpixel: the first at or after the least coordinate, the last at or before the greatest.
+  // Pixel centres are multiples of kSubpixel: the first at or after the least coordinate, the last at or before the
+  // greatest.
   const auto [least_x, greatest_x] = std::minmax({x[0], x[1], x[2]});
   const auto [least_y, greatest_y] = std::minmax({y[0], y[1], y[2]});
   const std::int64_t min_x = std::max<std::int64_t>((least_x + kSubpixel - 1) >> 8, 0);

@@ -1,5 +1,5 @@
-// Shading from a visibility buffer (Burns and Hunt, The visibility buffer, JCGT 2013): once all triangles of a tile have
-// been covered, each 2 x 2 quad is shaded once for each primitive visible in it.
+// Shading from a visibility buffer (Burns and Hunt, The visibility buffer, JCGT 2013): once all triangles of a tile
+// have been covered, each 2 x 2 quad is shaded once for each primitive visible in it.
 #include "cpu_shaders/runtime/denormals.h"
 #include "raster/tiled/draw.h"
 

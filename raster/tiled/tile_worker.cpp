@@ -26,8 +26,10 @@ void TileWorker::draw_tile(std::uint32_t tile) {
   std::fill_n(tile_.visible, pixels, kNotVisible);
   gather_triangles(tile);
   if (tile_.count > 0) {
-    if (draw_.in_order()) shade_in_order();
-    else shade_visible();
+    if (draw_.in_order())
+      shade_in_order();
+    else
+      shade_visible();
     ++tiles_shaded_;
   }
   store_tile();

@@ -43,9 +43,8 @@ StageMilliseconds draw_frame(const Draw& draw, std::vector<std::unique_ptr<TileW
   if (draw.module.has_side_effects) {  // what the shader writes must not depend on which tile comes first
     for (std::uint32_t tile = 0; tile < draw.grid.count(); ++tile) workers[0]->draw_tile(tile);
   } else {
-    parallel_for(draw.grid.count(), [&](std::size_t tile, int worker) {
-      workers[std::size_t(worker)]->draw_tile(std::uint32_t(tile));
-    });
+    parallel_for(draw.grid.count(),
+                 [&](std::size_t tile, int worker) { workers[std::size_t(worker)]->draw_tile(std::uint32_t(tile)); });
   }
   tiles.lap(Stage::store);
 
@@ -85,7 +84,8 @@ class TiledRenderer : public Renderer {
 
 Frame draw_tiled(const Bundle& bundle, const ShaderModule& module, const DrawOptions& options) {
   if (module.abi_version != kAbiVersion)
-    throw UserError("shader \"" + std::string(module.name) + "\" was translated by another version: translate it again");
+    throw UserError("shader \"" + std::string(module.name) +
+                    "\" was translated by another version: translate it again");
   validate(bundle, "bundle");
   const ShaderEntry& entry = choose_entry(module, options.number, options.isa);
   BoundDraw bound = bind(bundle, module, options.attributes);
@@ -94,11 +94,17 @@ Frame draw_tiled(const Bundle& bundle, const ShaderModule& module, const DrawOpt
 
   const auto [viewport_width, viewport_height] = viewport_size(bundle.width, bundle.height);
   Geometry geometry;
-  const Draw draw{bundle, module, options, bound, entry, choose_kernels(entry.isa, entry.number),
+  const Draw draw{bundle,
+                  module,
+                  options,
+                  bound,
+                  entry,
+                  choose_kernels(entry.isa, entry.number),
                   make_grid(bundle.width, bundle.height, options.tile_size),
                   {bundle.clip_positions.data(), bundle.indices.data(), bound.vertex_inputs.data(),
                    bound.input_components, 2.0f / float(viewport_width), 2.0f / float(viewport_height)},
-                  geometry, frame};
+                  geometry,
+                  frame};
   std::vector<std::unique_ptr<TileWorker>> workers;
   for (int i = 0; i < thread_count(); ++i) workers.push_back(std::make_unique<TileWorker>(draw));
 

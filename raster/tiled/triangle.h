@@ -7,8 +7,8 @@
 
 namespace twinshade::tiled {
 
-// A triangle ready for coverage. Three edge functions, >= 0 inside; at pixel (x, y) edge i is c[i] + a[i] * x + b[i] * y,
-// exactly, in units of kSubpixel square subpixels. Left and low-y edges hold points on them, folded into c.
+// A triangle ready for coverage. Three edge functions, >= 0 inside; at pixel (x, y) edge i is c[i] + a[i] * x + b[i] *
+// y, exactly, in units of kSubpixel square subpixels. Left and low-y edges hold points on them, folded into c.
 struct RasterTriangle {
   std::int64_t c[3];
   std::int32_t a[3], b[3];

@@ -1,4 +1,5 @@
-// Perspective division, viewport and snapping as measured on Mesa 22.3 (docs/raster-rule.md). Runs with denormals flushed.
+// Perspective division, viewport and snapping as measured on Mesa 22.3 (docs/raster-rule.md). Runs with denormals
+// flushed.
 #include "raster/tiled/window.h"
 
 #include <cmath>

@@ -1,0 +1,155 @@
+// What a shader asks for and a bundle lacks is named.
+#include <doctest/doctest.h>
+
+#include <bit>
+#include <cstring>
+
+#include "base/error.h"
+#include "raster/tiled/bind.h"
+#include "raster/tiled/tiled_renderer.h"
+#include "tests/tiled/hand_module.h"
+#include "tests/tiled/random_scene.h"
+
+using namespace twinshade;
+
+namespace {
+
+// A module that only asks.
+struct Wishes {
+  std::vector<ShaderVariable> inputs;
+  std::vector<ShaderUniform> uniforms;
+  std::vector<ShaderResource> resources;
+  std::uint32_t input_components = 0, uniform_bytes = 0, textures = 0, buffers = 0;
+
+  ShaderModule module() const {
+    ShaderModule m{};
+    m.abi_version = kAbiVersion;
+    m.name = "wishes";
+    m.inputs = inputs.data();
+    m.input_count = std::uint32_t(inputs.size());
+    m.input_components = input_components;
+    m.uniforms = uniforms.data();
+    m.uniform_count = std::uint32_t(uniforms.size());
+    m.uniform_bytes = uniform_bytes;
+    m.resources = resources.data();
+    m.resource_count = std::uint32_t(resources.size());
+    m.texture_count = textures;
+    m.buffer_count = buffers;
+    return m;
+  }
+};
+
+std::string complaint(const Bundle& bundle, const Wishes& wishes, AttributeMode mode = AttributeMode::exact) {
+  try {
+    tiled::bind(bundle, wishes.module(), mode);
+  } catch (const UserError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("missing and mistyped inputs are named with what the bundle has") {
+  const Bundle bundle = test::inside_bundle(8, 8, 1, 1);
+  Wishes wishes;
+  wishes.input_components = 4;
+  wishes.inputs = {{"v_normal", Scalar::f32, 1, 3, 0, false, false, -1, 0}};
+  CHECK(complaint(bundle, wishes) ==
+        "shader \"wishes\": input \"v_normal\" is not in the bundle; the bundle has v_value, v_key");
+  wishes.inputs = {{"v_value", Scalar::f32, 1, 3, 0, false, false, -1, 0}};
+  CHECK(complaint(bundle, wishes) ==
+        "shader \"wishes\": input \"v_value\" is declared vec3, but the bundle's attribute is vec4");
+  wishes.inputs = {{"v_key", Scalar::i32, 1, 1, 0, true, false, -1, 0}};
+  CHECK(complaint(bundle, wishes) ==
+        "shader \"wishes\": input \"v_key\" is declared int, but the bundle's attribute is uint");
+  wishes.inputs = {{"v_value", Scalar::f32, 1, 4, 0, false, true, -1, 0}};
+  CHECK(complaint(bundle, wishes) ==
+        "shader \"wishes\": input \"v_value\" is noperspective, which only native attributes have");
+  CHECK(complaint(bundle, wishes, AttributeMode::native) == "");
+}
+
+TEST_CASE("elements of input arrays and columns of input matrices are attributes of their own") {
+  Bundle bundle = test::inside_bundle(8, 8, 1, 1);
+  for (const char* name : {"a[0]", "a[1]", "m[0]", "m[1]"}) {
+    Attribute attribute{name, Scalar::f32, 2, {}};
+    for (int i = 0; i < 6; ++i) attribute.values.push_back(float(name[0]) + float(name[2] - '0') * 10 + float(i));
+    bundle.attributes.push_back(attribute);
+  }
+  Wishes wishes;
+  wishes.input_components = 8;
+  wishes.inputs = {{"m", Scalar::f32, 2, 2, 0, false, false, -1, 0}, {"a", Scalar::f32, 1, 2, 2, false, false, -1, 4}};
+  const tiled::BoundDraw bound = tiled::bind(bundle, wishes.module(), AttributeMode::exact);
+  CHECK(bound.component_names ==
+        std::vector<std::string>{"m[0].x", "m[0].y", "m[1].x", "m[1].y", "a[0].x", "a[0].y", "a[1].x", "a[1].y"});
+  for (std::size_t v = 0; v < 3; ++v)
+    for (std::size_t c = 0; c < 8; ++c)
+      CHECK(bound.vertex_inputs[8 * v + c] == float(c < 4 ? 'm' : 'a') + float(c / 2 % 2) * 10 + float(2 * v + c % 2));
+}
+
+TEST_CASE("uniforms land at their offsets and strides") {
+  Bundle bundle = test::inside_bundle(8, 8, 1, 1);
+  bundle.uniforms.push_back({"light.colour", Scalar::f32, 1, 3, 0, {1, 2, 3}});
+  bundle.uniforms.push_back({"k[0]", Scalar::f32, 2, 2, 2, {1, 2, 3, 4, 5, 6, 7, 8}});
+  bundle.uniforms.push_back({"n", Scalar::i32, 1, 1, 0, {std::bit_cast<float>(-7)}});
+  Wishes wishes;
+  wishes.uniforms = {{"light.colour", Scalar::f32, 1, 3, 0, 16, 0, 0},
+                     {"k", Scalar::f32, 2, 2, 2, 32, 32, 16},
+                     {"n", Scalar::i32, 1, 1, 0, 0, 0, 0}};
+  wishes.uniform_bytes = 96;
+  const tiled::BoundDraw bound = tiled::bind(bundle, wishes.module(), AttributeMode::exact);
+  const auto at = [&](std::size_t offset) {
+    std::uint32_t bits;
+    std::memcpy(&bits, &bound.uniforms[offset], 4);
+    return bits;
+  };
+  CHECK(at(0) == std::uint32_t(-7));
+  CHECK(std::bit_cast<float>(at(24)) == 3);
+  for (std::size_t i = 0; i < 8; ++i)
+    CHECK(std::bit_cast<float>(at(32 + i / 4 * 32 + i / 2 % 2 * 16 + i % 2 * 4)) == float(i + 1));
+
+  wishes.uniforms[1].array_length = 3;
+  CHECK(complaint(bundle, wishes) ==
+        "shader \"wishes\": uniform \"k\" is declared mat2x2[3], but the bundle's is mat2x2[2]");
+  wishes.uniforms = {{"exposure", Scalar::f32, 1, 1, 0, 0, 0, 0}};
+  CHECK(complaint(bundle, wishes) ==
+        "shader \"wishes\": uniform \"exposure\" is not in the bundle; the bundle has light.colour, k[0], n");
+}
+
+TEST_CASE("textures and buffers must be of the kind and size that the shader declares") {
+  Bundle bundle = test::inside_bundle(8, 8, 1, 1);
+  Texture texture;
+  texture.name = "albedo";
+  texture.width = texture.height = 1;
+  texture.texels = {1, 2, 3, 4};
+  bundle.textures.push_back(texture);
+  bundle.buffers.push_back({"Block", false, std::vector<std::byte>(16)});
+  Wishes wishes;
+  wishes.textures = wishes.buffers = 1;
+  wishes.resources = {{"albedo", ResourceKind::sampler_cube, 0, 0, true}};
+  CHECK(complaint(bundle, wishes) == "shader \"wishes\": samplerCube \"albedo\" does not fit the bundle's 2D texture");
+  wishes.resources = {{"normals", ResourceKind::sampler_2d, 0, 0, true}};
+  CHECK(complaint(bundle, wishes) ==
+        "shader \"wishes\": texture \"normals\" is not in the bundle; the bundle has albedo");
+  wishes.resources = {{"Block", ResourceKind::storage_buffer, 0, 4, true}};
+  CHECK(complaint(bundle, wishes) ==
+        "shader \"wishes\": storage buffer \"Block\": the bundle's buffer of that name is a uniform block");
+  wishes.resources = {{"Block", ResourceKind::uniform_block, 0, 32, true}};
+  CHECK(complaint(bundle, wishes) ==
+        "shader \"wishes\": uniform block \"Block\" needs 32 bytes, but the bundle's has 16");
+  wishes.resources = {{"Other", ResourceKind::uniform_block, 0, 32, true}};
+  CHECK(complaint(bundle, wishes) ==
+        "shader \"wishes\": uniform block \"Other\" is not in the bundle; the bundle has Block");
+}
+
+TEST_CASE("a number that the module has no code for is refused with its reason") {
+  static constexpr ShaderEntry kOnly{Isa::baseline, Number::lanes4, nullptr};
+  ShaderModule module = test::echo_module();
+  module.entries = &kOnly;
+  module.entry_count = 1;
+  module.no_float64_reason = "tone.frag:12: floatBitsToInt";
+  DrawOptions options;
+  options.number = Number::float64;
+  CHECK_THROWS_WITH(draw_tiled(test::inside_bundle(8, 8, 1, 1), module, options),
+                    "shader \"echo\" has no code for float64: tone.frag:12: floatBitsToInt");
+}

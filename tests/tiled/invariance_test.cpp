@@ -1,0 +1,120 @@
+// The frame does not depend on how the work is cut up: lanes, instruction set, threads, tile size.
+#include <doctest/doctest.h>
+
+#include "base/parallel.h"
+#include "raster/tiled/entry.h"
+#include "raster/tiled/tiled_renderer.h"
+#include "tests/tiled/hand_module.h"
+#include "tests/tiled/random_scene.h"
+
+using namespace twinshade;
+
+namespace {
+
+struct Threads {
+  explicit Threads(int count) { set_thread_count(count); }
+  ~Threads() { set_thread_count(0); }
+};
+
+std::string hash(const Bundle& bundle, const ShaderModule& module, DrawOptions options) {
+  options.capture_attributes = true;
+  const Frame frame = draw_tiled(bundle, module, options);
+  // Attributes count as well, where they mean something.
+  Frame all = frame;
+  const std::size_t pixels = std::size_t(frame.width) * frame.height;
+  for (std::size_t i = 0; i < frame.attributes.size(); ++i)
+    all.color.push_back(frame.coverage[i % pixels] ? frame.attributes[i] : 0);
+  return frame_hash(all);
+}
+
+}  // namespace
+
+TEST_CASE("lanes and instruction sets give the same bits") {
+  for (const AttributeMode mode : {AttributeMode::exact, AttributeMode::native})
+    for (const ShaderModule* module : {&test::echo_module(), &test::built_ins_module(), &test::discard_module(),
+                                       &test::frag_depth_module(), &test::side_effect_module()}) {
+      Bundle bundle = test::torture_bundle(333, 205, 1500, 1);
+      bundle.buffers.push_back({"counter", true, std::vector<std::byte>(4)});
+      CAPTURE(module->name);
+      CAPTURE(int(mode));
+      DrawOptions options;
+      options.attributes = mode;
+      options.isa = Isa::baseline;
+      options.number = Number::lanes4;
+      const std::string expected = hash(bundle, *module, options);
+      for (const ShaderEntry entry : test::entries_of(nullptr, nullptr)) {
+        if (entry.isa > tiled::machine_isa() || entry.number == Number::float64) continue;
+        CAPTURE(int(entry.isa));
+        CAPTURE(int(entry.number));
+        options.isa = entry.isa;
+        options.number = entry.number;
+        CHECK(hash(bundle, *module, options) == expected);
+      }
+    }
+}
+
+TEST_CASE("thread counts and tile sizes give the same bits") {
+  for (const AttributeMode mode : {AttributeMode::exact, AttributeMode::native})
+    for (const ShaderModule* module :
+         {&test::echo_module(), &test::built_ins_module(), &test::discard_module(), &test::frag_depth_module()}) {
+      const Bundle bundle = test::torture_bundle(517, 130, 5000, 2);
+      CAPTURE(module->name);
+      DrawOptions options;
+      options.attributes = mode;
+      const std::string expected = hash(bundle, *module, options);
+      for (const int threads : {1, 2, 7})
+        for (const int tile_size : {16, 32, 64, 128}) {
+          CAPTURE(threads);
+          CAPTURE(tile_size);
+          const Threads scope(threads);
+          options.tile_size = tile_size;
+          CHECK(hash(bundle, *module, options) == expected);
+        }
+    }
+}
+
+TEST_CASE("drawing again gives the same frame") {
+  Bundle bundle = test::torture_bundle(200, 100, 300, 3);
+  bundle.buffers.push_back({"counter", true, std::vector<std::byte>(4)});
+  DrawOptions once, often;
+  often.repeat = 5;
+  often.warmup = 1;
+  for (const ShaderModule* module : {&test::echo_module(), &test::side_effect_module()})
+    CHECK(hash(bundle, *module, often) == hash(bundle, *module, once));
+}
+
+TEST_CASE("seven threads are asked for and seven distinct threads shade tiles") {
+  const Threads scope(7);
+  float full[12] = {-1, -1, 0, 1, 3, -1, 0, 1, -1, 3, 0, 1};
+  test::Random random(1);
+  Bundle bundle = test::empty_bundle(640, 320);
+  test::add_triangle(bundle, full, random);
+  test::finish(bundle);
+  const Frame frame = draw_tiled(bundle, test::meeting_module(7), {});
+  CHECK(frame.distinct_threads == 7);
+}
+
+TEST_CASE("float64 draws the same visibility") {
+  const Bundle bundle = test::torture_bundle(300, 200, 1500, 4);
+  DrawOptions options;
+  const Frame a = draw_tiled(bundle, test::built_ins_module(), options);
+  options.number = Number::float64;
+  const Frame b = draw_tiled(bundle, test::built_ins_module(), options);
+  CHECK(a.primitive_id == b.primitive_id);
+  CHECK(a.depth == b.depth);
+  CHECK(a.coverage == b.coverage);
+  std::size_t different = 0;
+  for (std::size_t p = 0; p < a.coverage.size(); ++p) {
+    if (!a.coverage[p]) continue;
+    different += a.color[4 * p] != b.color[4 * p] || a.color[4 * p + 1] != b.color[4 * p + 1];
+    CHECK(b.color64[4 * p] == double(a.primitive_id[p]));
+  }
+  CHECK(different == 0);
+}
+
+TEST_CASE("an unknown tile size is the user's mistake") {
+  DrawOptions options;
+  options.tile_size = 48;
+  CHECK_THROWS_WITH(draw_tiled(test::inside_bundle(8, 8, 1, 1), test::echo_module(), options),
+                    "tile size 48 is not 16, 32, 64 or 128");
+}

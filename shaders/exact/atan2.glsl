@@ -13,7 +13,8 @@ float exact_atan2(float y, float x) {
   small *= scale;
   large *= scale;
 
-  bool wide = small > large * 0.414213568 || small > 3.40282347e38;  // tan(pi/8); the largest float
+  precise float threshold = large * 0.414213568;               // tan(pi/8)
+  bool wide = small > threshold || small > 3.40282347e38;      // the largest float
   precise float numerator = wide ? small - large : small;
   precise float denominator = wide ? small + large : large;
   precise float ratio = numerator / denominator;

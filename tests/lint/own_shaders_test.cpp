@@ -1,7 +1,9 @@
 // Every shader of shaders/ is in the exact dialect.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <regex>
 #include <string>
 #include <string_view>
 
@@ -59,6 +61,42 @@ TEST_CASE("techniques of their own lint clean") {
     ++count;
   }
   CHECK(count >= 2);
+}
+
+// A line `precise T x = ... op ...`, op outside calls (whose arguments may be integers): the float arithmetic that its
+// `precise` guards.
+bool guards_arithmetic(const std::string& line) {
+  static const std::regex declaration(R"(^ *precise \w+ \w+ = ([^;/]*(/ [^;/]*)?))"), call(R"(\w+\([^()]*\))");
+  std::smatch match;
+  if (!std::regex_search(line, match, declaration)) return false;
+  const std::string value = std::regex_replace(match[1].str(), call, "f");
+  return value.find_first_of("+*/") != value.npos || value.find(" - ") != value.npos;
+}
+
+TEST_CASE("taking any one `precise` away from the exact functions is found, at its line") {
+  int removed = 0;
+  for (const std::string_view name : builtin_shader_names()) {
+    if (name.substr(0, 6) != "exact/") continue;
+    const std::string text(*builtin_shader(name));
+    int line_number = 1;
+    for (std::size_t start = 0; start < text.size(); ++line_number) {
+      const std::size_t end = std::min(text.find('\n', start), text.size());
+      const std::string line = text.substr(start, end - start);
+      if (guards_arithmetic(line)) {
+        std::string broken = text;
+        broken.erase(start + line.find("precise "), 8);
+        const auto findings = lint(resolve_shader("broken", broken + "\nvoid main() {}\n", "broken.glsl"));
+        CAPTURE(std::string(name));
+        CAPTURE(line);
+        CHECK(std::any_of(findings.begin(), findings.end(), [&](const LintFinding& finding) {
+          return finding.file == "broken.glsl" && finding.line >= line_number && finding.rule != "literal";
+        }));
+        ++removed;
+      }
+      start = end + 1;
+    }
+  }
+  CHECK(removed > 80);
 }
 
 }  // namespace twinshade

@@ -1,0 +1,96 @@
+#include "scenes/environment.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/hash.h"
+#include "base/names.h"
+#include "base/portable_math.h"
+#include "scenes/environment_file.h"
+#include "scenes/environment_painted.h"
+
+namespace twinshade {
+namespace {
+
+using glm::dvec3;
+using portable::kPi;
+
+std::uint32_t wrap(std::int64_t x, std::uint32_t width) {
+  const std::int64_t rest = x % std::int64_t(width);
+  return std::uint32_t(rest < 0 ? rest + width : rest);
+}
+
+}  // namespace
+
+dvec3 Environment::radiance_towards(const dvec3& direction) const {
+  const double longitude = portable::atan2(direction.x, direction.z), latitude = portable::asin(direction.y);
+  const double px = (kPi - longitude) / (2 * kPi) * width - 0.5, py = (0.5 * kPi - latitude) / kPi * height - 0.5;
+  const double column = std::floor(px), row = std::floor(py);
+  const double fx = px - column, fy = py - row;
+  const auto texel = [&](double i, double j) {
+    const std::uint32_t x = wrap(std::int64_t(i), width);
+    const auto y = std::uint32_t(std::clamp(j, 0.0, double(height - 1)));
+    return dvec3(radiance[std::size_t(y) * width + x]);
+  };
+  const dvec3 upper = texel(column, row) * (1 - fx) + texel(column + 1, row) * fx;
+  const dvec3 lower = texel(column, row + 1) * (1 - fx) + texel(column + 1, row + 1) * fx;
+  return upper * (1 - fy) + lower * fy;
+}
+
+double Environment::pixel_solid_angle(std::uint32_t y) const {
+  // sin(latitude) at a row's upper edge is cos(colatitude).
+  const double top = portable::cos(kPi * y / height), bottom = portable::cos(kPi * (y + 1.0) / height);
+  return 2 * kPi / width * (top - bottom);
+}
+
+dvec3 Environment::pixel_direction(std::uint32_t x, std::uint32_t y) const {
+  const double longitude = kPi - 2 * kPi * (x + 0.5) / width, colatitude = kPi * (y + 0.5) / height;
+  const double ring = portable::sin(colatitude);
+  return {portable::sin(longitude) * ring, portable::cos(colatitude), portable::cos(longitude) * ring};
+}
+
+std::vector<std::string> environment_names() { return {"sky", "studio", "window", "constant"}; }
+
+Environment load_environment(const std::string& name_or_path, bool clamp_radiance) {
+  if (name_or_path == "sky") return paint_sky();
+  if (name_or_path == "studio") return paint_studio();
+  if (name_or_path == "window") return paint_window();
+  if (name_or_path == "constant") return paint_constant();
+  if (is_environment_file(name_or_path)) return load_environment_file(name_or_path, clamp_radiance);
+  if (name_or_path.find_first_of("/.") != std::string::npos)
+    throw UserError(name_or_path + ": not an environment: the name must end in .hdr or .exr");
+  throw UserError(unknown_name_message("environment", name_or_path, environment_names()));
+}
+
+// A turn about Y moves longitudes only: radiance'(longitude) = radiance(longitude - angle), a shift along the rows.
+Environment rotate_environment(const Environment& environment, double degrees) {
+  if (!std::isfinite(degrees)) throw UserError("environment rotation must be a finite number of degrees");
+  const double turns = degrees / 360 - std::floor(degrees / 360);
+  const double shift = turns * environment.width;
+  const double whole = std::floor(shift), rest = shift - whole;
+  if (whole == 0 && rest == 0) return environment;
+  Environment result = environment;
+  for (std::uint32_t y = 0; y < environment.height; ++y) {
+    const glm::vec3* row = &environment.radiance[std::size_t(y) * environment.width];
+    for (std::uint32_t x = 0; x < environment.width; ++x) {
+      const dvec3 left(row[wrap(std::int64_t(x) + std::int64_t(whole), environment.width)]);
+      const dvec3 right(row[wrap(std::int64_t(x) + std::int64_t(whole) + 1, environment.width)]);
+      result.radiance[std::size_t(y) * environment.width + x] =
+          rest == 0 ? glm::vec3(left) : glm::vec3(left * (1 - rest) + right * rest);
+    }
+  }
+  return result;
+}
+
+std::string environment_hash(const Environment& environment) {
+  static_assert(sizeof(glm::vec3) == 12);
+  Sha256 hash;
+  hash.add("twinshade environment 1");
+  hash.add(&environment.width, sizeof environment.width);
+  hash.add(&environment.height, sizeof environment.height);
+  hash.add(environment.radiance.data(), environment.radiance.size() * sizeof(glm::vec3));
+  return hash.hex();
+}
+
+}  // namespace twinshade

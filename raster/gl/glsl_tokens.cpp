@@ -46,7 +46,8 @@ class Tokenizer {
     while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back()))) line.pop_back();
     if (starts_with(line, "#version")) return;
     if (starts_with(line, "#extension")) {
-      result_.extensions.push_back(line);
+      // Our own, for #line with file names: no driver needs it.
+      if (line.find("GL_GOOGLE_cpp_style_line_directive") == std::string::npos) result_.extensions.push_back(line);
       return;
     }
     if (starts_with(line, "#line")) line = numbered(line);

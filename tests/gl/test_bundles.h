@@ -1,6 +1,7 @@
 // Small bundles made by hand.
 #pragma once
 
+#include <cstring>
 #include <random>
 #include <string>
 #include <vector>

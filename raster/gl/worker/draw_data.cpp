@@ -46,13 +46,21 @@ void set_sampling(const GlFunctions& gl, GLenum target, GLint filter, GLint wrap
   gl.TexParameteri(target, GL_TEXTURE_MAX_LEVEL, 0);
 }
 
-// Zero-sized stores cannot be bound: they get 16 bytes.
-void fill_buffer(const GlFunctions& gl, GLuint name, const std::byte* bytes, std::uint64_t size) {
+// `size` bytes, then zeros up to `capacity`. A store of no bytes cannot be bound, so none is.
+void fill_buffer(const GlFunctions& gl, GLuint name, const std::byte* bytes, std::uint64_t size,
+                 std::uint64_t capacity) {
   gl.BindBuffer(GL_COPY_WRITE_BUFFER, name);
-  gl.BufferData(GL_COPY_WRITE_BUFFER, GLsizeiptr(std::max<std::uint64_t>(size, 16)), size >= 16 ? bytes : nullptr,
-                GL_STATIC_DRAW);
-  if (size > 0 && size < 16) gl.BufferSubData(GL_COPY_WRITE_BUFFER, 0, GLsizeiptr(size), bytes);
+  if (size == capacity && size != 0) {
+    gl.BufferData(GL_COPY_WRITE_BUFFER, GLsizeiptr(size), bytes, GL_STATIC_DRAW);
+    return;
+  }
+  const std::vector<std::byte> zeros(std::max<std::uint64_t>(capacity, 16));
+  gl.BufferData(GL_COPY_WRITE_BUFFER, GLsizeiptr(zeros.size()), zeros.data(), GL_STATIC_DRAW);
+  gl.BufferSubData(GL_COPY_WRITE_BUFFER, 0, GLsizeiptr(size), bytes);
 }
+
+// Drivers report the size of a block rounded up to the alignment of a vec4.
+std::uint64_t rounded_up(std::uint64_t bytes) { return (bytes + 15) / 16 * 16; }
 
 }  // namespace
 
@@ -72,9 +80,10 @@ void DrawData::replace(ImageIndex index, SharedMemory memory) {
   }
   index_ = std::move(index);
   memory_ = std::move(memory);
-  fill_buffer(gl_, vertices_, memory_.data() + index_.vertices, index_.vertex_floats * 4);
-  fill_buffer(gl_, indices_, memory_.data() + index_.indices, index_.index_count * 4);
-  fill_buffer(gl_, drawn_indices_, memory_.data() + index_.drawn_indices, index_.index_count * 4);
+  fill_buffer(gl_, vertices_, memory_.data() + index_.vertices, index_.vertex_floats * 4, index_.vertex_floats * 4);
+  fill_buffer(gl_, indices_, memory_.data() + index_.indices, index_.index_count * 4, index_.index_count * 4);
+  fill_buffer(gl_, drawn_indices_, memory_.data() + index_.drawn_indices, index_.index_count * 4,
+              index_.index_count * 4);
   check_errors(gl_, "uploading vertices");
 }
 
@@ -261,7 +270,8 @@ GLuint DrawData::buffer(const ImageBuffer& b) {
   GLuint& object = buffers_[(b.storage ? "storage " : "uniform ") + b.name];
   if (object != 0) return object;
   gl_.GenBuffers(1, &object);
-  fill_buffer(gl_, object, memory_.data() + b.offset, b.size);
+  // A storage buffer keeps its size, which .length() of an unsized array shows.
+  fill_buffer(gl_, object, memory_.data() + b.offset, b.size, b.storage ? b.size : rounded_up(b.size));
   check_errors(gl_, "uploading buffer " + b.name);
   return object;
 }
@@ -275,7 +285,7 @@ void DrawData::bind_buffer(const ActiveBlock& block, bool storage, GLuint bindin
                  [&](const ImageBuffer& b) { return b.storage == storage; });
     missing(wanted, names_of(present));
   }
-  if (found->size < std::uint64_t(block.bytes))
+  if (rounded_up(found->size) < std::uint64_t(block.bytes))
     throw Failure(Outcome::user_error, wanted + " needs " + std::to_string(block.bytes) + " bytes, but has " +
                                            std::to_string(found->size) + " in the bundle");
   gl_.BindBufferBase(storage ? GL_SHADER_STORAGE_BUFFER : GL_UNIFORM_BUFFER, binding, buffer(*found));

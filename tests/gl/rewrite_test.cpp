@@ -1,0 +1,214 @@
+// The rewriting of a user's fragment shader, without any driver.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "raster/gl/constant_integer.h"
+#include "raster/gl/declaration.h"
+#include "raster/gl/fragment_rewrite.h"
+#include "tests/gl/test_shaders.h"
+
+using namespace twinshade;
+using namespace twinshade::gl;
+using test::error_of;
+using test::shader;
+
+namespace {
+
+FragmentShader globals(const std::string& text) { return rewrite_fragment_shader(shader(text), InputStyle::globals); }
+FragmentShader varyings(const std::string& text) { return rewrite_fragment_shader(shader(text), InputStyle::varyings); }
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+// Words and punctuation with single spaces, directives dropped: what a compiler sees.
+std::string tokens_of(const std::string& text) {
+  std::string result;
+  for (const Token& token : tokenize(shader(""), text).tokens)
+    if (!token.text.empty()) result += (result.empty() ? "" : " ") + token.text;
+  return result;
+}
+
+std::string rejection(const std::string& text, InputStyle style = InputStyle::globals) {
+  return error_of([&] { rewrite_fragment_shader(shader(text), style); });
+}
+
+const std::string kMain = "void main() {}\n";
+
+}  // namespace
+
+TEST_CASE("tokens put together again are the preprocessed text, line for line") {
+  const std::string text = "float a = 1.0e-5, b = .5e+3f;\n\nvoid main()\n{ a += b - 0x1Fu; }\n";
+  const ShaderSource source = shader(text);
+  const TokenText tokens = tokenize(source, preprocess(source));
+  for (const Token& token : tokens.tokens) {
+    if (token.text == "main") CHECK(token.line == 3);
+    if (token.text == "0x1Fu") CHECK(token.line == 4);
+  }
+  const auto is_number = [](const Token& token) { return token.kind == TokenKind::number; };
+  CHECK(std::count_if(tokens.tokens.begin(), tokens.tokens.end(), is_number) == 3);
+  CHECK(tokens_of(join(tokens)) == "float a = 1.0e-5 , b = .5e+3f ; void main ( ) { a + = b - 0x1Fu ; }");
+}
+
+TEST_CASE("#line directives give tokens their file, and become numbers for drivers") {
+  ShaderSource source = shader("");
+  source.files = {"a.frag", "b.glsl"};
+  const TokenText tokens = tokenize(source, "#line 7 \"b.glsl\"\nint x;\n#line 3 \"a.frag\"\n\nint y;\n");
+  REQUIRE(tokens.tokens.size() == 6);
+  CHECK(position(source, tokens.tokens[1]) == "b.glsl:7: ");
+  CHECK(position(source, tokens.tokens[4]) == "a.frag:4: ");
+  CHECK(join(tokens) == "#line 7 1\nint x;\n#line 3 0\n\nint y;\n");
+}
+
+TEST_CASE("inputs with any qualifiers become globals in exact mode and keep precise") {
+  const FragmentShader result = globals(
+      "layout(location = 3) flat in precise highp vec3 c[9], d;\n"
+      "centroid in vec2 v_uv; smooth in mat3 tbn; flat in uint tag; in uvec2 tags;\n" +
+      kMain);
+  CHECK(contains(tokens_of(result.text), "precise highp vec3 c [ 9 ] , d ;"));
+  CHECK(contains(tokens_of(result.text), "vec2 v_uv ; mat3 tbn ; uint tag ; uvec2 tags ;"));
+  REQUIRE(result.inputs.size() == 6);
+  CHECK(result.inputs[0].name == "c");
+  CHECK(result.inputs[0].array_length == 9);
+  CHECK(result.inputs[0].interpolation == "flat");
+  CHECK(result.inputs[0].rows == 3);
+  CHECK(result.inputs[1].array_length == 0);
+  CHECK(result.inputs[3].columns == 3);
+  CHECK(result.inputs[4].scalar == Scalar::u32);
+  CHECK(result.inputs[5].interpolation == "flat");
+}
+
+TEST_CASE("inputs hidden behind macros and conditionals are found") {
+  const FragmentShader result = globals(
+      "#define INPUT(type, name) IN type name\n#define IN in\n#define HAS_B 0\n"
+      "INPUT(vec3, a); // in vec4 not_this;\n/* in vec4 nor_this; */\n"
+      "#if HAS_B\nin vec3 b;\n#else\nin vec3 c;\n#endif\n" +
+      kMain);
+  REQUIRE(result.inputs.size() == 2);
+  CHECK(result.inputs[0].name == "a");
+  CHECK(result.inputs[1].name == "c");
+  CHECK(!contains(tokens_of(result.text), "in vec"));
+}
+
+TEST_CASE("in and out of function parameters stay") {
+  const FragmentShader result =
+      globals("void f(in vec3 a, out float b, inout int c) { b = a.x; }\nout vec4 color;\nvoid main() {}\n");
+  CHECK(contains(tokens_of(result.text), "void f ( in vec3 a , out float b , inout int c )"));
+  CHECK(contains(tokens_of(result.text), "vec4 color ; void twinshade_user_main ( )"));
+  CHECK(result.inputs.empty());
+}
+
+TEST_CASE("every line stays where it was") {
+  const std::string text =
+      "in vec3 a;\n\n/* two\nlines */ layout(location = 0)\n out\n vec4 color;\nfloat g = a.x,\n  h = g;\nvoid main() "
+      "{ discard; }\n";
+  const FragmentShader result = globals(text);
+  const ShaderSource source = shader(text);
+  const TokenText before = tokenize(source, preprocess(source));
+  const TokenText after = tokenize(source, result.text);
+  const auto line_of = [](const TokenText& tokens, const std::string& word) {
+    for (const Token& token : tokens.tokens)
+      if (token.text == word) return token.line;
+    return -1;
+  };
+  for (const char* word : {"a", "color", "g", "h", "discard"}) {
+    CAPTURE(word);
+    CHECK(line_of(before, word) == line_of(after, word));
+  }
+}
+
+TEST_CASE("global initializers run after the inputs have been filled") {
+  const FragmentShader result =
+      globals("in float a;\nprecise float b = a * 2.0, c, d[2] = float[2](b, a);\nconst int k = 3;\n" + kMain);
+  CHECK(result.initializers == std::vector<std::string>{"twinshade_initialize_0", "twinshade_initialize_1"});
+  const std::string text = tokens_of(result.text);
+  CHECK(contains(text,
+                 "precise float b ; void twinshade_initialize_0 ( ) { precise float twinshade_value = a * 2.0 ; b = "
+                 "twinshade_value ; }"));
+  CHECK(contains(text, "precise float c ; precise float d [ 2 ] ; void twinshade_initialize_1"));
+  CHECK(contains(text, "const int k = 3 ;"));
+  CHECK(varyings("in float a;\nfloat b = a;\n" + kMain).initializers.empty());
+}
+
+TEST_CASE("built-ins of the fragment are redirected in exact mode only") {
+  const std::string text =
+      "out vec4 c;\nvoid main() { c = gl_FragCoord * float(gl_PrimitiveID) * float(gl_FrontFacing); }\n";
+  const std::string exact = tokens_of(globals(text).text);
+  CHECK(contains(exact, "twinshade_FragCoord * float ( twinshade_PrimitiveID ) * float ( twinshade_FrontFacing )"));
+  CHECK(contains(tokens_of(varyings(text).text), "gl_FragCoord * float ( gl_PrimitiveID )"));
+}
+
+TEST_CASE("native mode keeps inputs, less their locations") {
+  const FragmentShader result = varyings("layout(location = 2) noperspective in vec2 a;\nflat in int b;\n" + kMain);
+  CHECK(contains(tokens_of(result.text), "noperspective in vec2 a ; flat in int b ;"));
+  CHECK(result.inputs[0].interpolation == "noperspective");
+}
+
+TEST_CASE("outputs are known with their location, and become globals") {
+  const FragmentShader result =
+      globals("const int ONE = 1;\nlayout(location = ONE + 1) out uvec3 b;\nout float a;\n" + kMain);
+  REQUIRE(result.outputs.size() == 2);
+  CHECK(result.outputs[0].location == 2);
+  CHECK(result.outputs[0].scalar == Scalar::u32);
+  CHECK(result.outputs[0].components == 3);
+  CHECK(result.outputs[1].location == -1);
+  CHECK(!contains(tokens_of(result.text), "out "));
+}
+
+TEST_CASE("array sizes may be constant expressions") {
+  const FragmentShader result = globals("#define N 3\nconst int M = N * (N - 1);\nin vec3 c[M / 2 + 1];\n" + kMain);
+  CHECK(result.inputs[0].array_length == 4);
+  const std::vector<Token> tokens = tokenize(shader(""), "2 * (3 + K) % 4 - 1").tokens;
+  CHECK(constant_integer(tokens, 0, tokens.size(), {{"K", 6}}) == 2 * (3 + 6) % 4 - 1);
+  CHECK(!constant_integer(tokens, 0, tokens.size(), {}));
+  CHECK(!constant_integer(tokens, 0, 2, {}));
+}
+
+TEST_CASE("#extension lines are lifted out") {
+  const FragmentShader result = globals("#extension GL_ARB_gpu_shader5 : enable\nin float a;\n" + kMain);
+  CHECK(std::find(result.extensions.begin(), result.extensions.end(), "#extension GL_ARB_gpu_shader5 : enable") !=
+        result.extensions.end());
+  CHECK(!contains(result.text, "#extension"));
+}
+
+TEST_CASE("names that later versions made keywords are renamed in older shaders") {
+  const std::string text = "#version 330\nout vec4 color;\nvoid main() { vec4 sample = vec4(1.0); color = sample; }\n";
+  CHECK(contains(tokens_of(globals(text).text), "color = twinshade_name_sample ;"));
+  CHECK(contains(tokens_of(globals("precise out vec4 c;\nvoid main() { precise float a = 1.0; c = vec4(a); }").text),
+                 "precise float a"));
+}
+
+TEST_CASE("what the rewritten shader does is known") {
+  const FragmentShader result = globals(
+      "in vec2 a;\nin vec2 unused;\nout vec4 c;\nvoid main() {\n if (a.x > 0.0) discard;\n"
+      " gl_FragDepth = 0.5; c = vec4(dFdx(a), a); }\n");
+  CHECK(result.discards);
+  CHECK(result.writes_depth);
+  CHECK(result.derivative == "test.frag:6: dFdx");
+  CHECK(result.inputs[0].used);
+  CHECK(!result.inputs[1].used);
+}
+
+TEST_CASE("what cannot be rewritten is refused by name, file and line") {
+  CHECK(rejection("\nin Block { vec3 a; } b;\n" + kMain) ==
+        "test.frag:2: interface block Block as an input is not supported: declare its members as inputs");
+  CHECK(rejection("struct S { float a; };\nin S s;\n" + kMain) ==
+        "test.frag:2: an input of type S is not supported: use float, int, uint, vectors or matrices");
+  CHECK(rejection("in float a[];\n" + kMain) ==
+        "test.frag:1: input a needs an array size of 1 to 1024 written as a number");
+  CHECK(rejection("in float a[2][2];\n" + kMain) ==
+        "test.frag:1: input a is an array of arrays, which is not supported");
+  CHECK(
+      contains(rejection("noperspective in float a;\n" + kMain), "test.frag:1: noperspective needs native attributes"));
+  CHECK(rejection("noperspective in float a;\n" + kMain, InputStyle::varyings).empty());
+  CHECK(contains(rejection("in float a;\nout vec4 c;\nvoid main() { c = vec4(interpolateAtCentroid(a)); }\n"),
+                 "test.frag:3: interpolateAtCentroid needs native attributes"));
+  CHECK(contains(rejection("layout(early_fragment_tests) in;\n" + kMain), "test.frag:1: layout(early_fragment_tests)"));
+  CHECK(contains(rejection("layout(origin_upper_left) in vec4 gl_FragCoord;\n" + kMain),
+                 "test.frag:1: gl_FragCoord with origin"));
+  CHECK(contains(rejection("float twinshade_x;\n" + kMain),
+                 "test.frag:1: names that begin with twinshade_ are reserved"));
+  CHECK(contains(rejection("float x;\n"), "test.frag: the shader has no main()"));
+  CHECK(contains(rejection("void main() { if (true) {\n"), "test.frag:1: \"{\" is never closed"));
+  CHECK(contains(rejection("#error no such mode\n" + kMain), "test.frag:1:"));
+}

@@ -19,7 +19,8 @@ constexpr int kBakeVersion = 1;
 
 void check(const char* name, std::uint32_t value, std::uint32_t highest) {
   if (value < 1 || value > highest)
-    throw UserError(std::string(name) + ": " + std::to_string(value) + " is not within 1 to " + std::to_string(highest));
+    throw UserError(std::string(name) + ": " + std::to_string(value) + " is not within 1 to " +
+                    std::to_string(highest));
 }
 
 // Light that varies smoothly from vertex to vertex, mostly from above, a little of every function: for scenes that test
@@ -30,13 +31,17 @@ LightBake procedural_light(const Scene& scene) {
   bake.width = std::uint32_t(scene.positions.size());
   bake.height = 1;
   bake.sh.resize(scene.positions.size() * kRadianceCount * 3);
-  const auto phase = [](float coordinate) { return std::isfinite(coordinate) ? std::clamp(double(coordinate), -1e3, 1e3) : 0; };
+  const auto phase = [](float coordinate) {
+    return std::isfinite(coordinate) ? std::clamp(double(coordinate), -1e3, 1e3) : 0;
+  };
   for (std::size_t v = 0; v < scene.positions.size(); ++v) {
     const glm::vec3& p = scene.positions[v];
     for (int k = 0; k < kRadianceCount; ++k) {
       for (int c = 0; c < 3; ++c) {
         const double wave = portable::sin(0.7 * phase(p.x) + 1.1 * phase(p.y) + 0.9 * phase(p.z) + 0.8 * k + 2.1 * c);
-        bake.sh[(v * kRadianceCount + k) * 3 + c] = float(k == 0 ? 2 + 0.5 * wave : k == 2 ? 1 + 0.3 * wave : 0.2 * wave);
+        bake.sh[(v * kRadianceCount + k) * 3 + c] = float(k == 0   ? 2 + 0.5 * wave
+                                                          : k == 2 ? 1 + 0.3 * wave
+                                                                   : 0.2 * wave);
       }
     }
   }

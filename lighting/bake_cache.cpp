@@ -1,5 +1,5 @@
-// Layout: magic, storage, width, height (u32 each), a bit for each cell (1: it has coefficients), the coefficients of those
-// cells as f32, SHA-256 of all before it as 64 hex digits. That hash is also the bake's.
+// Layout: magic, storage, width, height (u32 each), a bit for each cell (1: it has coefficients), the coefficients of
+// those cells as f32, SHA-256 of all before it as 64 hex digits. That hash is also the bake's.
 #include "lighting/bake_cache.h"
 
 #include <bit>

@@ -16,7 +16,8 @@ CameraTransform::CameraTransform(const Camera& camera, double aspect) : eye_(cam
                     " are not 0 < near < far");
   const glm::dvec3 backward = camera.eye - camera.target;
   const double distance = std::sqrt(glm::dot(backward, backward));
-  if (!(distance > 0 && std::isfinite(distance))) throw UserError("camera: the eye is at the target: give another target");
+  if (!(distance > 0 && std::isfinite(distance)))
+    throw UserError("camera: the eye is at the target: give another target");
   backward_ = backward / distance;
   const glm::dvec3 right = glm::cross(camera.up, backward_);
   const double length = std::sqrt(glm::dot(right, right));

@@ -11,7 +11,8 @@ namespace twinshade {
 
 class CameraTransform {
  public:
-  // UserError where the camera looks nowhere: eye at the target, up along the view, field of view or planes out of range.
+  // UserError where the camera looks nowhere: eye at the target, up along the view, field of view or planes out of
+  // range.
   CameraTransform(const Camera& camera, double aspect);
 
   glm::dvec4 clip(const glm::dvec3& world) const;

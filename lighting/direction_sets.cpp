@@ -1,5 +1,5 @@
-// Each set is a Hammersley point set with Owen-scrambled second coordinate, jittered within its strata: one direction in each
-// of `rays` bands of equal solid angle, and in every elementary interval of height times azimuth.
+// Each set is a Hammersley point set with Owen-scrambled second coordinate, jittered within its strata: one direction
+// in each of `rays` bands of equal solid angle, and in every elementary interval of height times azimuth.
 #include "lighting/direction_sets.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Stratified directions of the upper hemisphere, uniform in solid angle, as a fixed number of sets from which each texel takes
-// one, so that the basis is evaluated once a direction and not once a ray.
+// Stratified directions of the upper hemisphere, uniform in solid angle, as a fixed number of sets from which each
+// texel takes one, so that the basis is evaluated once a direction and not once a ray.
 #pragma once
 
 #include <cstdint>

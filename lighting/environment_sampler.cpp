@@ -1,5 +1,5 @@
-// The rest is resampled to a cube: looking up a direction takes no transcendental function there. Bright pixels are sampled by
-// power with their exact solid angle, in Morton order so that stratified numbers spread over their area.
+// The rest is resampled to a cube: looking up a direction takes no transcendental function there. Bright pixels are
+// sampled by power with their exact solid angle, in Morton order so that stratified numbers spread over their area.
 #include "lighting/environment_sampler.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Distant light, split for sampling: the excess of bright pixels (the sun, lamps, windows), each sample aimed at one of them,
-// and the rest, looked up by rays that leave the scene. The two add up to the environment.
+// Distant light, split for sampling: the excess of bright pixels (the sun, lamps, windows), each sample aimed at one of
+// them, and the rest, looked up by rays that leave the scene. The two add up to the environment.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ class EnvironmentSampler {
   struct BrightPixel {
     double cumulative;  // power up to and including this one, of 1
     glm::dvec3 weighted_radiance;
-    double longitude, sine_low;        // left edge, lower edge
+    double longitude, sine_low;  // left edge, lower edge
     double longitude_width, sine_height;
   };
   std::vector<BrightPixel> bright_;

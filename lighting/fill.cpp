@@ -1,5 +1,5 @@
-// Breadth first: each round fills every empty cell beside a filled one with the mean of those of its neighbours that were filled
-// before the round.
+// Breadth first: each round fills every empty cell beside a filled one with the mean of those of its neighbours that
+// were filled before the round. First the receivers, among themselves, then the gutters around them.
 #include "lighting/fill.h"
 
 #include <algorithm>
@@ -12,14 +12,14 @@ FillPlan FillPlan::grow(const std::vector<std::uint8_t>& known, const Receivers&
   FillPlan plan;
   std::vector<std::uint8_t> state(known);  // 0 empty, 1 filled, 2 waiting for this round
   std::vector<std::uint32_t> frontier, next;
-  for (std::uint32_t cell = 0; cell < known.size(); ++cell)
-    if (known[cell]) frontier.push_back(cell);
+  const auto is_receiver = [&](std::uint32_t cell) { return receivers.receiver_of_cell[cell] != kNoReceiver; };
 
-  for (int round = 0; !frontier.empty(); ++round) {
+  // Fills cells beside the frontier and makes them the next frontier
+  const auto round = [&](const auto& wanted) {
     next.clear();
     for (const std::uint32_t cell : frontier)
       neighbours(cell, [&](std::uint32_t other) {
-        if (state[other] != 0 || (round >= gutter && receivers.receiver_of_cell[other] == kNoReceiver)) return;
+        if (state[other] != 0 || !wanted(other)) return;
         state[other] = 2;
         next.push_back(other);
       });
@@ -33,7 +33,18 @@ FillPlan FillPlan::grow(const std::vector<std::uint8_t>& known, const Receivers&
     }
     for (const std::uint32_t cell : next) state[cell] = 1;
     frontier.swap(next);
+  };
+
+  for (std::uint32_t cell = 0; cell < known.size(); ++cell)
+    if (known[cell]) frontier.push_back(cell);
+  while (!frontier.empty()) round(is_receiver);
+
+  frontier.clear();
+  for (const Receiver& receiver : receivers.list) {
+    state[receiver.cell] = 1;
+    frontier.push_back(receiver.cell);
   }
+  for (int step = 0; step < gutter; ++step) round([&](std::uint32_t cell) { return !is_receiver(cell); });
   return plan;
 }
 
@@ -69,18 +80,10 @@ void FillPlan::apply(std::span<float> cells, std::size_t stride) const {
   for (const Step& step : steps_) {
     for (std::size_t k = 0; k < stride; ++k) {
       double sum = 0;
-      for (std::uint32_t s = 0; s < step.source_count; ++s)
-        sum += cells[sources_[step.first_source + s] * stride + k];
+      for (std::uint32_t s = 0; s < step.source_count; ++s) sum += cells[sources_[step.first_source + s] * stride + k];
       cells[step.cell * stride + k] = float(sum / step.source_count);
     }
   }
-}
-
-std::vector<std::uint32_t> FillPlan::filled() const {
-  std::vector<std::uint32_t> cells;
-  for (const Step& step : steps_) cells.push_back(step.cell);
-  std::sort(cells.begin(), cells.end());
-  return cells;
 }
 
 }  // namespace twinshade

@@ -1,5 +1,5 @@
-// Cells without light of their own take it from their neighbours: texels inside geometry, and the gutters around charts that
-// bilinear filtering reads.
+// Cells without light of their own take it from their neighbours: texels inside geometry, and the gutters around charts
+// that bilinear filtering reads.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,15 @@ namespace twinshade {
 
 class FillPlan {
  public:
-  // known: 1 where a cell has light of its own, else 0; by cell.
-  // wanted cells are filled however far away the light is, if any known cell is connected; others up to `gutter` steps.
+  // known: 1 where a cell has light of its own, else 0; by cell. Receivers that are not known are filled from known
+  // ones however far away they are, as long as receivers lie between; where none is in reach a receiver keeps what it
+  // has. Then cells that are no receivers are filled up to `gutter` texels away.
   static FillPlan lightmap(const std::vector<std::uint8_t>& known, const Receivers& receivers, int gutter);
   // Along the edges of triangles.
   static FillPlan vertices(const std::vector<std::uint8_t>& known, const Receivers& receivers, const Scene& scene);
 
   // In place: `cells` has `stride` consecutive values a cell.
   void apply(std::span<float> cells, std::size_t stride) const;
-
-  // Was the cell filled by this plan?
-  std::vector<std::uint32_t> filled() const;
 
  private:
   struct Step {

@@ -1,9 +1,9 @@
-// Radiance is projected on real spherical harmonics in tangent space, as in Habel and Wimmer, Efficient Irradiance Normal
-// Mapping, I3D 2010, sections 3 and 4.
+// Radiance is projected on real spherical harmonics in tangent space, as in Habel and Wimmer, Efficient Irradiance
+// Normal Mapping, I3D 2010, sections 3 and 4.
 //
-// Surfaces have one side, the one their vertex normals point to. A ray that meets the other side brings nothing, and where
-// most rays do, the texel is inside something: it takes its light from its neighbours. A ray of the tangent hemisphere that
-// starts below its own triangle's plane sees the surface itself.
+// Surfaces have one side, the one their vertex normals point to. A ray that meets the other side brings nothing, and
+// where most rays do, the texel is inside something: it takes its light from its neighbours. A ray of the tangent
+// hemisphere that starts below its own triangle's plane sees the surface itself.
 #include "lighting/gather.h"
 
 #include <algorithm>
@@ -24,10 +24,10 @@ namespace twinshade {
 namespace {
 
 constexpr int kValues = kRadianceCount * 3;
-constexpr std::size_t kChunk = 64;                          // receivers handed to a thread at a time
+constexpr std::size_t kChunk = 64;                             // receivers handed to a thread at a time
 constexpr std::size_t kRememberedHits = std::size_t(1) << 28;  // 1 GiB
-constexpr int kGutter = 8;                                  // texels
-constexpr double kInsideShare = 0.5;                        // of rays that meet back faces
+constexpr int kGutter = 8;                                     // texels
+constexpr double kInsideShare = 0.5;                           // of rays that meet back faces
 
 enum RandomDomain : std::uint64_t { kChooseSet = 16, kChooseRay, kChooseVertex, kChooseBright, kPlaceBright };
 
@@ -56,7 +56,8 @@ class Projection {
   int pending_ = 0;
 };
 
-// One sample of a bright pixel that a receiver sees: its direction waits for the basis to be evaluated for many at a time.
+// One sample of a bright pixel that a receiver sees: its direction waits for the basis to be evaluated for many at a
+// time.
 struct SeenBright {
   std::uint32_t receiver;
   glm::dvec3 radiance;
@@ -87,7 +88,8 @@ class Gatherer {
   GatheredLight run() {
     const std::size_t count = receivers_.list.size(), chunks = (count + kChunk - 1) / kChunk;
     {
-      Progress progress("bake: direct light", "rays", count * (options_.rays + bright_samples_), options_.show_progress);
+      Progress progress("bake: direct light", "rays", count * (options_.rays + bright_samples_),
+                        options_.show_progress);
       parallel_for(chunks, [&](std::size_t chunk, int) {
         const std::size_t first = chunk * kChunk, last = std::min(count, first + kChunk);
         gather_direct(first, last);
@@ -120,7 +122,8 @@ class Gatherer {
     first = std::uint32_t(slot * rays / remembered_);
     last = std::uint32_t((slot + 1) * rays / remembered_);
     if (last - first == 1) return first;
-    return first + std::uint32_t(random_bits(options_.seed, kChooseRay, receivers_.list[i].cell, slot) % (last - first));
+    return first +
+           std::uint32_t(random_bits(options_.seed, kChooseRay, receivers_.list[i].cell, slot) % (last - first));
   }
 
   void gather_direct(std::size_t first, std::size_t last) {
@@ -190,8 +193,8 @@ class Gatherer {
     const double offset = unit_real(random_bits(options_.seed, kChooseBright, receiver.cell));
     for (std::uint32_t s = 0; s < bright_samples_; ++s) {
       const std::uint64_t bits = random_bits(options_.seed, kPlaceBright, receiver.cell, s);
-      const EnvironmentSampler::Sample sample = light_.bright((s + offset) / bright_samples_, double(bits >> 32) * 0x1p-32,
-                                                              double(bits & 0xffffffffu) * 0x1p-32);
+      const EnvironmentSampler::Sample sample = light_.bright(
+          (s + offset) / bright_samples_, double(bits >> 32) * 0x1p-32, double(bits & 0xffffffffu) * 0x1p-32);
       const glm::dvec3 local(glm::dot(sample.direction, glm::dvec3(receiver.tangent)),
                              glm::dot(sample.direction, glm::dvec3(receiver.bitangent)),
                              glm::dot(sample.direction, glm::dvec3(receiver.normal)));
@@ -205,18 +208,11 @@ class Gatherer {
     }
   }
 
-  // Cells inside geometry and gutters. Where no light is in reach, such a cell keeps its own.
   FillPlan plan_fill() const {
     std::vector<std::uint8_t> known(inside_.size(), 0);
     for (const Receiver& receiver : receivers_.list) known[receiver.cell] = !inside_[receiver.cell];
-    const auto plan = [&] {
-      return receivers_.storage == CoefficientStorage::lightmap ? FillPlan::lightmap(known, receivers_, kGutter)
-                                                                : FillPlan::vertices(known, receivers_, scene_);
-    };
-    std::vector<std::uint8_t> reached(known);
-    for (const std::uint32_t cell : plan().filled()) reached[cell] = 1;
-    for (const Receiver& receiver : receivers_.list) known[receiver.cell] |= !reached[receiver.cell];
-    return plan();
+    return receivers_.storage == CoefficientStorage::lightmap ? FillPlan::lightmap(known, receivers_, kGutter)
+                                                              : FillPlan::vertices(known, receivers_, scene_);
   }
 
   void gather_bounce(std::size_t i) {
@@ -247,9 +243,9 @@ class Gatherer {
   const EnvironmentSampler light_;
   const DirectionSets sets_;
   const std::uint32_t bright_samples_;
-  std::uint32_t remembered_ = 0;             // rays a receiver whose hit is kept
-  std::vector<std::uint32_t> hits_;          // receiver that was hit
-  std::vector<std::uint8_t> inside_;         // by cell
+  std::uint32_t remembered_ = 0;      // rays a receiver whose hit is kept
+  std::vector<std::uint32_t> hits_;   // receiver that was hit
+  std::vector<std::uint8_t> inside_;  // by cell
   GatheredLight out_;
 };
 

@@ -1,5 +1,5 @@
-// The two passes of a bake. Direct: rays that leave the scene bring the environment's light, rays that hit a surface are
-// remembered. Bounce: those bring what the surface reflects of its own direct irradiance, as a matt surface does.
+// The two passes of a bake. Direct: rays that leave the scene bring the environment's light, rays that hit a surface
+// are remembered. Bounce: those bring what the surface reflects of its own direct irradiance, as a matt surface does.
 #pragma once
 
 #include <cstdint>

@@ -24,7 +24,8 @@ bool contains_word(const std::string& text, const std::string& word) {
 }
 
 // The bases whose coefficients the techniques' shaders read.
-std::vector<const TechniqueInfo*> bases_in_use(const std::vector<const TechniqueInfo*>& wanted, CoefficientStorage storage) {
+std::vector<const TechniqueInfo*> bases_in_use(const std::vector<const TechniqueInfo*>& wanted,
+                                               CoefficientStorage storage) {
   std::vector<std::string> texts;
   for (const TechniqueInfo* technique : wanted) texts.push_back(technique_source(*technique, storage).text);
   std::vector<const TechniqueInfo*> bases;

@@ -1,5 +1,5 @@
-// All layers of an array have one size: the largest of its images, resampled bilinearly in double with repeat, halved until
-// the array is within a budget.
+// All layers of an array have one size: the largest of its images, resampled bilinearly in double with repeat, halved
+// until the array is within a budget.
 #include "lighting/material_textures.h"
 
 #include <algorithm>
@@ -17,7 +17,8 @@ struct Layer {
   glm::dvec3 factor;   // multiplies the image, or is the constant
 };
 
-// Mean of the image over [x0, x1) x [y0, y1) in texels, repeating: a box filter when shrinking, else bilinear at the middle.
+// Mean of the image over [x0, x1) x [y0, y1) in texels, repeating: a box filter when shrinking, else bilinear at the
+// middle.
 class Resampler {
  public:
   Resampler(const Image& image, std::uint32_t width, std::uint32_t height)

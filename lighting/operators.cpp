@@ -1,6 +1,6 @@
-// From baked radiance to a basis' coefficients: irradiance sum_j A_l L_j Y_j(n), fitted by least squares over the basis' domain
-// (Habel and Wimmer, Efficient Irradiance Normal Mapping, I3D 2010, eq. 7, with the inverse Gram matrix that bases which are
-// not orthonormal need).
+// From baked radiance to a basis' coefficients: irradiance sum_j A_l L_j Y_j(n), fitted by least squares over the
+// basis' domain (Habel and Wimmer, Efficient Irradiance Normal Mapping, I3D 2010, eq. 7, with the inverse Gram matrix
+// that bases which are not orthonormal need).
 #include <Eigen/Cholesky>
 #include <cmath>
 
@@ -23,7 +23,8 @@ std::vector<double> to_vector(const Matrix& matrix) { return {matrix.data(), mat
 
 std::vector<double> operator_from_radiance(const TechniqueInfo& technique) {
   if (!technique.is_basis || !technique.linear)
-    throw UserError("technique " + std::string(technique.name) + " is not a linear basis: it has no matrix from radiance");
+    throw UserError("technique " + std::string(technique.name) +
+                    " is not a linear basis: it has no matrix from radiance");
   const std::array<double, kRadianceCount> cosine = clamped_cosine_factors();
 
   if (technique.projection == Projection::value_at_normal) {

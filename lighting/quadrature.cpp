@@ -1,5 +1,5 @@
-// Nodes by Newton's method on the Legendre polynomial from Tricomi's first guess (Davis and Rabinowitz, Methods of Numerical
-// Integration, section 2.7).
+// Nodes by Newton's method on the Legendre polynomial from Tricomi's first guess (Davis and Rabinowitz, Methods of
+// Numerical Integration, section 2.7).
 #include "lighting/quadrature.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// What baked radiance is projected on: real spherical harmonics l <= 4 in tangent space, evaluated by the translation of
-// shaders/basis/sh5.glsl.
+// What baked radiance is projected on: real spherical harmonics l <= 4 in tangent space, evaluated by the translation
+// of shaders/basis/sh5.glsl.
 #pragma once
 
 #include <array>
@@ -13,7 +13,8 @@ namespace twinshade {
 
 inline constexpr int kRadianceCount = 25;
 
-// Values of a linear basis' functions at each direction, by the double translation of its GLSL: [direction * count + function].
+// Values of a linear basis' functions at each direction, by the double translation of its GLSL: [direction * count +
+// function].
 std::vector<double> basis_values(const TechniqueInfo& basis, std::span<const glm::dvec3> directions);
 
 // The same for all 25 functions of radiance: [direction * 25 + function].

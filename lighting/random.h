@@ -1,6 +1,6 @@
-// Counter-based random numbers: a hash of what is being sampled, so that a value never depends on the order or the thread
-// in which it is asked for. Finaliser of splitmix64 (Steele, Lea and Flood, Fast splittable pseudorandom number generators,
-// 2014); hash-based Owen scrambling after Burley, Practical hash-based Owen scrambling, JCGT 2020.
+// Counter-based random numbers: a hash of what is being sampled, so that a value never depends on the order or the
+// thread in which it is asked for. Finaliser of splitmix64 (Steele, Lea and Flood, Fast splittable pseudorandom number
+// generators, 2014); hash-based Owen scrambling after Burley, Practical hash-based Owen scrambling, JCGT 2020.
 #pragma once
 
 #include <cstdint>

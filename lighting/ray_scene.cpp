@@ -1,9 +1,10 @@
-// Triangle test: Woop, Benthin and Wald, Watertight ray/triangle intersection, JCGT 2013, in double. Corners are floats, so
-// the edge functions of a shared edge are each other's exact negatives and no ray passes between two triangles.
+// Triangle test: Woop, Benthin and Wald, Watertight ray/triangle intersection, JCGT 2013, in double. Corners are
+// floats, so the edge functions of a shared edge are each other's exact negatives and no ray passes between two
+// triangles.
 //
-// Why the answer does not depend on Embree's instruction set or tree: the ray is the float one that Embree sees; boxes are
-// padded by far more than Embree's rounding, so every triangle that our test could accept at t <= the best so far is
-// proposed; and the ray's far end handed back to Embree is rounded up by more than that rounding too.
+// Why the answer does not depend on Embree's instruction set or tree: the ray is the float one that Embree sees; boxes
+// are padded by far more than Embree's rounding, so every triangle that our test could accept at t <= the best so far
+// is proposed; and the ray's far end handed back to Embree is rounded up by more than that rounding too.
 #include "lighting/ray_scene.h"
 
 #include <embree3/rtcore.h>
@@ -13,10 +14,10 @@
 #include <cstdlib>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/error.h"
-#include "base/parallel.h"
 
 namespace twinshade {
 namespace {
@@ -137,6 +138,24 @@ void occlude_triangle(const RTCOccludedFunctionNArguments* arguments) {
     reinterpret_cast<RTCRay*>(arguments->ray)->tfar = -std::numeric_limits<float>::infinity();
 }
 
+// No thread count in the configuration: Embree would impose it on every user of TBB in the process.
+RTCDevice new_device() {
+  std::string config, wanted;
+  if (const char* isa = std::getenv("TWINSHADE_EMBREE_ISA")) wanted = isa;
+  if (!wanted.empty()) {
+    constexpr std::string_view known[] = {"sse2", "sse4.2", "avx", "avx2", "avx512"};
+    if (std::find(std::begin(known), std::end(known), wanted) == std::end(known))
+      throw UserError("TWINSHADE_EMBREE_ISA=" + wanted + " is none of sse2, sse4.2, avx, avx2, avx512");
+    config = "isa=" + wanted;
+  }
+  const RTCDevice device = rtcNewDevice(config.c_str());
+  if (!device)
+    throw UserError(
+        "Embree does not start" +
+        (wanted.empty() ? std::string() : " with TWINSHADE_EMBREE_ISA=" + wanted + ": this processor lacks it"));
+  return device;
+}
+
 }  // namespace
 
 RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<Impl>()) {
@@ -172,13 +191,7 @@ RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<Impl>()) {
   self.padding = float(std::max({reach.x, reach.y, reach.z, self.diagonal}) * 0x1p-18);
 
   // Embree's tree over them
-  std::string config = "threads=" + std::to_string(thread_count());
-  const char* isa = std::getenv("TWINSHADE_EMBREE_ISA");
-  if (isa && *isa) config += std::string(",isa=") + isa;
-  self.device = rtcNewDevice(config.c_str());
-  if (!self.device)
-    throw UserError(std::string("Embree does not start") +
-                    (isa ? std::string(" with TWINSHADE_EMBREE_ISA=") + isa + ": unset it or use sse2" : std::string()));
+  self.device = new_device();
   self.scene = rtcNewScene(self.device);
   rtcSetSceneFlags(self.scene, RTC_SCENE_FLAG_ROBUST);
   RTCGeometry geometry = rtcNewGeometry(self.device, RTC_GEOMETRY_TYPE_USER);

@@ -1,5 +1,5 @@
-// Rays against a scene's triangles, the same answer on every machine: Embree only proposes candidates (user geometry with
-// padded bounds), a watertight test in double decides.
+// Rays against a scene's triangles, the same answer on every machine: Embree only proposes candidates (user geometry
+// with padded bounds), a watertight test in double decides.
 #pragma once
 
 #include <cstdint>
@@ -14,16 +14,17 @@ inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 
 struct RayHit {
   std::uint32_t triangle = kNoTriangle;
-  double t = 0;     // in lengths of the direction
+  double t = 0;           // in lengths of the direction
   double b1 = 0, b2 = 0;  // barycentric weights of the second and third corner
   bool front = false;     // the side its vertex normals point to
 };
 
-// Triangles that have no area or a corner that is not finite are never hit. All functions may be called by many threads.
+// Triangles that have no area or a corner that is not finite are never hit. All functions may be called by many
+// threads.
 class RayScene {
  public:
-  // The instruction set that Embree uses can be chosen by the environment variable TWINSHADE_EMBREE_ISA (sse2, sse4.2, avx,
-  // avx2, avx512). UserError where Embree refuses it.
+  // The instruction set that Embree uses can be chosen by the environment variable TWINSHADE_EMBREE_ISA (sse2, sse4.2,
+  // avx, avx2, avx512). UserError where Embree refuses it.
   explicit RayScene(const Scene& scene);
   ~RayScene();
   RayScene(const RayScene&) = delete;

@@ -85,7 +85,9 @@ class Builder {
   }
 
  private:
-  const std::uint32_t* corners(std::uint32_t triangle) const { return scene_.indices.data() + 3 * std::size_t(triangle); }
+  const std::uint32_t* corners(std::uint32_t triangle) const {
+    return scene_.indices.data() + 3 * std::size_t(triangle);
+  }
   const Scene& scene_;
   const RayScene& rays_;
   double lift_;
@@ -134,7 +136,8 @@ Receivers vertex_receivers(const Scene& scene, const RayScene& rays) {
   for (const std::uint32_t vertex : scene.indices) ++first[vertex + 1];
   for (std::uint32_t v = 0; v < out.width; ++v) first[v + 1] += first[v];
   std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-  for (std::uint32_t corner = 0; corner < scene.indices.size(); ++corner) corners[next[scene.indices[corner]]++] = corner;
+  for (std::uint32_t corner = 0; corner < scene.indices.size(); ++corner)
+    corners[next[scene.indices[corner]]++] = corner;
 
   for (std::uint32_t v = 0; v < out.width; ++v) {
     const std::uint32_t first_site = std::uint32_t(out.sites.size());

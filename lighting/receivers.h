@@ -13,42 +13,43 @@ namespace twinshade {
 
 // A point on a triangle from which rays start.
 struct Site {
-  glm::vec3 origin;             // lifted off the surface
-  glm::vec3 geometric_normal;   // of the triangle's front
+  glm::vec3 origin;            // lifted off the surface
+  glm::vec3 geometric_normal;  // of the triangle's front
   std::uint32_t triangle;
 };
 
 struct Receiver {
-  std::uint32_t cell;                      // texel y * width + x, or vertex
-  std::uint32_t first_site, site_count;    // rays are dealt to the sites in turn
-  glm::vec3 tangent, bitangent, normal;    // orthonormal, world space
-  glm::vec3 albedo;                        // linear; for light that bounces off here
+  std::uint32_t cell;                    // texel y * width + x, or vertex
+  std::uint32_t first_site, site_count;  // rays are dealt to the sites in turn
+  glm::vec3 tangent, bitangent, normal;  // orthonormal, world space
+  glm::vec3 albedo;                      // linear; for light that bounces off here
 };
 
 inline constexpr std::uint32_t kNoReceiver = 0xffffffffu;
 
 struct Receivers {
   CoefficientStorage storage = CoefficientStorage::lightmap;
-  std::uint32_t width = 0, height = 0;           // cells; vertices: vertex count x 1
-  std::vector<Receiver> list;                    // in order of cell
+  std::uint32_t width = 0, height = 0;  // cells; vertices: vertex count x 1
+  std::vector<Receiver> list;           // in order of cell
   std::vector<Site> sites;
-  std::vector<std::uint32_t> receiver_of_cell;   // kNoReceiver where no triangle is
+  std::vector<std::uint32_t> receiver_of_cell;  // kNoReceiver where no triangle is
 
   // The receiver whose light a point of a triangle shows: the texel there; or one of the three vertices, chosen by
   // `choice` in [0, 1) with the barycentric weights as probabilities.
   std::uint32_t at(const Scene& scene, std::uint32_t triangle, double b1, double b2, double choice) const;
 };
 
-// Lightmap: a texel belongs to the lowest triangle that contains its centre, else to the one that covers most of it, and
-// gathers at its centre or at the middle of what is covered. A triangle without area in the lightmap still gets a texel.
+// Lightmap: a texel belongs to the lowest triangle that contains its centre, else to the one that covers most of it,
+// and gathers at its centre or at the middle of what is covered. A triangle without area in the lightmap still gets a
+// texel.
 Receivers lightmap_receivers(const Scene& scene, const RayScene& rays, std::uint32_t size);
 
-// Vertices: a vertex gathers from up to eight of its triangles, a little way in from the corner, so that what stands on an
-// edge does not see both sides of it.
+// Vertices: a vertex gathers from up to eight of its triangles, a little way in from the corner, so that what stands on
+// an edge does not see both sides of it.
 Receivers vertex_receivers(const Scene& scene, const RayScene& rays);
 
-// Tangent space of a point whose interpolated vectors are not unit, not orthogonal or useless. Columns: tangent, bitangent,
-// normal. fallback: unit normal where `normal` is no direction.
+// Tangent space of a point whose interpolated vectors are not unit, not orthogonal or useless. Columns: tangent,
+// bitangent, normal. fallback: unit normal where `normal` is no direction.
 glm::dmat3 tangent_frame(glm::dvec3 normal, glm::dvec3 tangent, double handedness, const glm::dvec3& fallback);
 
 }  // namespace twinshade

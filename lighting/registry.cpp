@@ -47,4 +47,20 @@ ShaderSource technique_source(const TechniqueInfo& technique, CoefficientStorage
   return resolve_shader(vertex ? name + "_vertex" : name, text, name);
 }
 
+ShaderSource basis_values_source(const TechniqueInfo& technique) {
+  const std::string name(technique.name);
+  if (!technique.is_basis || !technique.linear) throw UserError("technique " + name + " is not a linear basis");
+  const std::string text =
+      "#define COEF(i) vec3(0.0)\n"  // basis_irradiance is not called, only basis_value
+      "#include \"basis/" +
+      std::string(technique.file) +
+      "\"\n"
+      "in vec3 direction;\n"
+      "out float value[BASIS_COUNT];\n"
+      "void main() {\n"
+      "  for (int i = 0; i < BASIS_COUNT; ++i) value[i] = basis_value(i, direction);\n"
+      "}\n";
+  return resolve_shader(name + "_values", text, name + "_values");
+}
+
 }  // namespace twinshade

@@ -1,5 +1,6 @@
-// The triangle is clipped to the texel's square (Sutherland and Hodgman, Reentrant polygon clipping, 1974); the place is the
-// texel's centre if the triangle contains it, else the centroid of the clipped polygon, which is always on the triangle.
+// The triangle is clipped to the texel's square (Sutherland and Hodgman, Reentrant polygon clipping, 1974); the place
+// is the texel's centre if the triangle contains it, else the centroid of the clipped polygon, which is always on the
+// triangle.
 #include "lighting/texel_coverage.h"
 
 #include <algorithm>

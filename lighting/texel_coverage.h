@@ -11,8 +11,8 @@ namespace twinshade {
 
 struct TexelOwner {
   std::uint32_t triangle = 0xffffffffu;  // none
-  double area = -1;     // covered part of the texel, 0 to 1; 2 where the triangle contains the centre
-  double b1 = 0, b2 = 0;  // barycentric weights of the second and third corner, inside the triangle
+  double area = -1;                      // covered part of the texel, 0 to 1; 2 where the triangle contains the centre
+  double b1 = 0, b2 = 0;                 // barycentric weights of the second and third corner, inside the triangle
 };
 
 // size * size owners, row 0 at v = 0.

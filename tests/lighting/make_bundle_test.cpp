@@ -1,0 +1,151 @@
+#include <doctest/doctest.h>
+
+#include <bit>
+#include <cmath>
+#include <string>
+
+#include "base/error.h"
+#include "lighting/bake.h"
+#include "lighting/camera.h"
+#include "lighting/material_textures.h"
+#include "tests/lighting/small_scenes.h"
+
+namespace twinshade {
+namespace {
+
+LightBake flat_light(CoefficientStorage storage, std::uint32_t width, std::uint32_t height) {
+  LightBake light;
+  light.storage = storage;
+  light.width = width, light.height = height;
+  light.sh.assign(std::size_t(width) * height * 75, 0.0f);
+  for (std::size_t cell = 0; cell < std::size_t(width) * height; ++cell)
+    for (int c = 0; c < 3; ++c) light.sh[cell * 75 + c] = float(cell + 1) * float(c + 1);
+  light.notes = {{"scene", "test"}};
+  return light;
+}
+
+std::vector<const TechniqueInfo*> named(std::initializer_list<const char*> names) {
+  std::vector<const TechniqueInfo*> list;
+  for (const char* name : names) list.push_back(&find_technique(name));
+  return list;
+}
+
+TEST_CASE("camera: the target is in the middle, near and far planes are the ends of depth") {
+  Camera camera;
+  camera.eye = {1, 2, 3}, camera.target = {4, 2, -1};
+  camera.near_plane = 0.5, camera.far_plane = 50, camera.vertical_fov_degrees = 90;
+  const CameraTransform transform(camera, 2);
+  const glm::dvec3 forward = glm::normalize(camera.target - camera.eye);
+  const glm::dvec4 middle = transform.clip(camera.target);
+  CHECK(std::abs(middle.x) < 1e-12);
+  CHECK(std::abs(middle.y) < 1e-12);
+  CHECK(middle.w == doctest::Approx(5).epsilon(1e-14));
+  const glm::dvec4 near = transform.clip(camera.eye + forward * 0.5), far = transform.clip(camera.eye + forward * 50.0);
+  CHECK(near.z == doctest::Approx(-near.w).epsilon(1e-12));
+  CHECK(far.z == doctest::Approx(far.w).epsilon(1e-12));
+  const glm::dvec4 top = transform.clip(camera.target + glm::dvec3(0, 5, 0));
+  CHECK(top.y == doctest::Approx(top.w).epsilon(1e-12));  // 90 degrees: as high as far
+  const glm::dvec4 right = transform.clip(camera.target + glm::cross(forward, glm::dvec3(0, 1, 0)) * 10.0);
+  CHECK(right.x == doctest::Approx(right.w).epsilon(1e-12));  // aspect 2
+}
+
+TEST_CASE("cameras that see nothing are refused") {
+  for (int change = 0; change < 5; ++change) {
+    Camera camera;
+    if (change == 0) camera.target = camera.eye;
+    if (change == 1) camera.target = camera.eye + camera.up;
+    if (change == 2) camera.vertical_fov_degrees = 180;
+    if (change == 3) camera.far_plane = camera.near_plane;
+    if (change == 4) camera.near_plane = NAN;
+    CHECK_THROWS_AS(CameraTransform(camera, 1), UserError);
+  }
+}
+
+TEST_CASE("lightmap storage: a texture array for each basis that a technique reads, valid and complete") {
+  const Scene scene = floor_scene();
+  FrameOptions options;
+  options.width = 100, options.height = 60;
+  const Bundle bundle =
+      make_bundle(scene, flat_light(CoefficientStorage::lightmap, 4, 4), named({"sh2", "cutout", "facets"}), options);
+  validate(bundle, "test");
+  CHECK(bundle.find_texture("coefficients_h4") != nullptr);
+  CHECK(bundle.find_texture("coefficients_h6") == nullptr);
+  const Texture* sh2 = bundle.find_texture("coefficients_sh2");
+  REQUIRE(sh2 != nullptr);
+  CHECK(sh2->layers == 4);
+  CHECK(sh2->wrap == Wrap::clamp_to_edge);
+  for (int cell = 0; cell < 16; ++cell)
+    for (int c = 0; c < 3; ++c)
+      CHECK(sh2->texels[cell * 4 + c] == doctest::Approx((cell + 1) * (c + 1) * 3.14159265358979).epsilon(1e-6));
+  for (const char* name : {"v_uv", "v_material", "v_position", "v_lightmap_uv"})
+    CHECK(bundle.find_attribute(name) != nullptr);
+  REQUIRE(bundle.find_note("techniques") != nullptr);
+  CHECK(*bundle.find_note("techniques") == "sh2 cutout facets");
+  CHECK(*bundle.find_note("scene") == "test");
+}
+
+TEST_CASE("vertex storage: an attribute for each coefficient") {
+  Scene scene = floor_scene();
+  scene.lightmap_uvs.clear();
+  const Bundle bundle =
+      make_bundle(scene, flat_light(CoefficientStorage::vertex, 4, 1), named({"sh3"}), FrameOptions());
+  validate(bundle, "test");
+  for (int i = 0; i < 9; ++i) {
+    const Attribute* attribute = bundle.find_attribute("coefficients_sh3[" + std::to_string(i) + "]");
+    REQUIRE(attribute != nullptr);
+    CHECK(attribute->components == 3);
+    for (int v = 0; v < 4; ++v)
+      CHECK(std::abs(attribute->values[v * 3 + 1] - (i == 0 ? (v + 1) * 2 * 3.14159265358979 : 0)) < 1e-5);
+  }
+  CHECK(bundle.find_attribute("v_lightmap_uv") == nullptr);
+}
+
+TEST_CASE("clip positions of a scene replace the camera's and are fitted to the viewport") {
+  Scene scene = floor_scene();
+  scene.clip_positions = {{-1, -1, 0, 1}, {1, -1, 0, 1}, {1, 1, 0.5f, 1}, {-2, 2, 0, 2}};
+  FrameOptions options;
+  options.width = 64, options.height = 48;
+  const Bundle bundle = make_bundle(scene, flat_light(CoefficientStorage::vertex, 4, 1), named({"facets"}), options);
+  std::vector<float> expected;
+  for (const glm::vec4& p : scene.clip_positions) expected.insert(expected.end(), {p.x, p.y, p.z, p.w});
+  fit_to_viewport(expected, 64, 48);
+  CHECK(bundle.clip_positions == expected);
+}
+
+TEST_CASE("materials: a layer each, of one size, the albedo multiplied in, one by one where there is nothing to see") {
+  Scene scene = floor_scene();
+  add_rectangle(scene, {0, 1, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0}, 1, 1);
+  scene.materials.push_back({"checked", {0.5f, 1, 0.25f}, 0, 1});
+  scene.images.push_back({2, 1, {1, 0, 0.5f, 1, 0, 1, 0.5f, 1}});
+  scene.images.push_back({1, 2, {0, 0, 2, 1, 3, 0, 4, 1}});
+  const Texture albedo = albedo_maps(scene, true), normal = normal_maps(scene, true);
+  CHECK(albedo.layers == 2);
+  CHECK(albedo.width == 2);
+  CHECK(albedo.height == 1);
+  CHECK(albedo.wrap == Wrap::repeat);
+  CHECK(albedo.texels == std::vector<float>{0.5f, 0.5f, 0.5f, 1, 0.5f, 0.5f, 0.5f, 1,  //
+                                            0.5f, 0, 0.125f, 1, 0, 1, 0.125f, 1});
+  CHECK(normal.texels == std::vector<float>{0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0.6f, 0, 0.8f, 1});
+  CHECK(albedo_maps(scene, false).texels == std::vector<float>(8, 1.0f));
+  CHECK(normal_maps(scene, false).texels == std::vector<float>{0, 0, 1, 1, 0, 0, 1, 1});
+
+  const Bundle bundle =
+      make_bundle(scene, flat_light(CoefficientStorage::lightmap, 1, 1), named({"facets"}), FrameOptions());
+  const Attribute* material = bundle.find_attribute("v_material");
+  REQUIRE(material != nullptr);
+  CHECK(material->scalar == Scalar::i32);
+  for (int v = 0; v < 8; ++v) CHECK(std::bit_cast<std::int32_t>(material->values[v]) == (v < 4 ? 0 : 1));
+}
+
+TEST_CASE("frames without size are refused") {
+  for (const std::uint32_t size : {0u, 16385u}) {
+    FrameOptions options;
+    options.width = size;
+    CHECK_THROWS_AS(
+        make_bundle(floor_scene(), flat_light(CoefficientStorage::lightmap, 1, 1), named({"facets"}), options),
+        UserError);
+  }
+}
+
+}  // namespace
+}  // namespace twinshade

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "app/dialect.h"
 #include "app/machines.h"
 #include "app/mismatch.h"
 #include "app/output.h"
@@ -41,6 +42,7 @@ struct Row {
   std::string hash_a, hash_b;
   Json first_difference;
   std::string description;
+  std::vector<LintFinding> findings;  // where they differ: what in the shader may explain it
 };
 
 class CompareRun {
@@ -161,8 +163,9 @@ class CompareRun {
       if (!again.first) again = row.comparison;
     }
     row.comparison.attributes_differ = again.attributes_differ;
+    row.findings = lint(shader.source);
     row.first_difference = difference_json(again.first, *a);
-    row.description = describe_mismatch(row.technique, row.a, row.b, again, *a);
+    row.description = describe_mismatch(row.technique, row.a, row.b, again, *a) + describe_findings(row.findings);
   }
 
   void fail(const Shading& shader, const std::string& a, const std::string& b, const std::string& reason) {
@@ -268,6 +271,7 @@ class CompareRun {
     json["denormal_only"] = c.denormal_only;
     json["max_ulp"] = c.max_ulp;
     json["first_difference"] = row.first_difference;
+    json["outside_exact_dialect"] = findings_json(row.findings);
     json["verdict"] = verdict(row);
     json["a_frame"] = row.hash_a;
     json["b_frame"] = row.hash_b;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "app/dialect.h"
 #include "app/output.h"
 #include "app/provenance.h"
 #include "base/error.h"
@@ -47,11 +48,14 @@ struct TranslateVerb {
       output.text(translation.cpp);
     else
       write_file(file, translation.cpp);
-    report_json(output, source, translation.reflection);
+    const std::vector<LintFinding> findings = lint(source);
+    for (const LintFinding& finding : findings) output.note("outside the exact dialect: " + describe(finding));
+    report_json(output, source, translation.reflection, findings);
     return 0;
   }
 
-  void report_json(const Output& output, const ShaderSource& source, const Reflection& reflection) const {
+  void report_json(const Output& output, const ShaderSource& source, const Reflection& reflection,
+                   const std::vector<LintFinding>& findings) const {
     const auto names = [](const auto& list) {
       Json json = Json::array();
       for (const auto& entry : list) json.push_back(entry.name);
@@ -69,7 +73,8 @@ struct TranslateVerb {
                  {"discards", reflection.discards},
                  {"writes_depth", reflection.writes_depth},
                  {"uses_derivatives", reflection.uses_derivatives},
-                 {"float64", reflection.no_float64_reason.empty() ? Json(true) : Json(reflection.no_float64_reason)}});
+                 {"float64", reflection.no_float64_reason.empty() ? Json(true) : Json(reflection.no_float64_reason)},
+                 {"outside_exact_dialect", findings_json(findings)}});
   }
 };
 

@@ -1,0 +1,10 @@
+# cmake -D OUTPUT=x.cpp -D SYMBOL=s -D ROOT=folder -D FILES=a;b -P embed_files.cmake: files as raw string literals.
+set(text "#include <span>\n\n#include \"base/embedded_file.h\"\n\nnamespace twinshade {\n\n")
+string(APPEND text "std::span<const EmbeddedFile> ${SYMBOL}();\n\n")
+string(APPEND text "std::span<const EmbeddedFile> ${SYMBOL}() {\n  static constexpr EmbeddedFile kFiles[] = {\n")
+foreach(file IN LISTS FILES)
+  file(READ ${ROOT}/${file} content)
+  string(APPEND text "{\"${file}\", R\"~file~(${content})~file~\"},\n")
+endforeach()
+string(APPEND text "  };\n  return kFiles;\n}\n\n}  // namespace twinshade\n")
+file(WRITE ${OUTPUT} "${text}")

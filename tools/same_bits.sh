@@ -1,0 +1,79 @@
+#!/usr/bin/env bash
+# The same bundle and the same frame, to the bit, however they are made: lane widths, instruction sets, tile sizes, thread
+# counts, masked processor features, Embree's instruction sets, and further binaries (another compiler's, say).
+#   tools/same_bits.sh TWINSHADE [OTHER_TWINSHADE ...]
+# Bakes each variant of the bake anew in a cache of its own. Prints a line per variant, exits 1 at the first that differs.
+set -euo pipefail
+[ $# -ge 1 ] || { echo "usage: tools/same_bits.sh TWINSHADE [OTHER_TWINSHADE ...]" >&2; exit 2; }
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+scene=(courtyard --technique h6,sh3,cutout,facets --lightmap 64 --rays 64)
+features=-FMA,-FMA4,-AVX2,-AVX2_Usable,-AVX512F,-ERMS
+features_glibc="glibc.cpu.hwcaps=$features"
+
+expected_bundle=
+check_bake() {  # label, then the command with its environment
+  local label=$1 bundle="$work/$1.bundle"
+  shift
+  mkdir -p "$work/cache-$label"
+  env TWINSHADE_CACHE="$work/cache-$label" "$@" bake "${scene[@]}" --size 320x200 --quiet -o "$bundle" >/dev/null
+  local hash
+  hash=$(sha256sum <"$bundle" | cut -d' ' -f1)
+  printf 'bake   %-28s %s\n' "$label" "$hash"
+  if [ -z "$expected_bundle" ]; then
+    expected_bundle=$hash
+    cp "$bundle" "$work/reference.bundle"
+  elif [ "$hash" != "$expected_bundle" ]; then
+    echo "differs from the first: $label" >&2
+    exit 1
+  fi
+  rm -rf "$bundle" "$work/cache-$label"
+}
+
+declare -A expected_frame
+check_frame() {  # label, then the command with its environment; the rest are options
+  local label=$1 technique hash
+  shift
+  for technique in h6 sh3 cutout facets; do
+    hash=$(env "$@" render "$work/reference.bundle" --technique $technique --on cpu ${options[@]+"${options[@]}"} --quiet \
+      -o "$work/frame.exr" | awk '$1 == "frame" {print $2}')
+    [ -n "$hash" ] || { echo "no frame hash: $label $technique" >&2; exit 1; }
+    printf 'frame  %-28s %-7s %s\n' "$label" $technique "$hash"
+    if [ -z "${expected_frame[$technique]:-}" ]; then
+      expected_frame[$technique]=$hash
+    elif [ "$hash" != "${expected_frame[$technique]}" ]; then
+      echo "differs from the first: $label $technique" >&2
+      exit 1
+    fi
+  done
+}
+
+first=$1
+shift
+check_bake threads-2 "$first" --threads 2
+check_bake threads-1 "$first" --threads 1
+check_bake threads-7 "$first" --threads 7
+check_bake masked-features GLIBC_TUNABLES="$features_glibc" "$first"
+check_bake embree-sse2 TWINSHADE_EMBREE_ISA=sse2 "$first"
+if grep -q avx2 /proc/cpuinfo; then check_bake embree-avx2 TWINSHADE_EMBREE_ISA=avx2 "$first"; fi
+
+options=()
+check_frame default "$first"
+for tile in 16 32 64; do options=(--tile $tile); check_frame tile-$tile "$first"; done
+for threads in 1 2 7; do options=(--threads $threads); check_frame threads-$threads "$first"; done
+for number in lanes4 lanes8 lanes16 scalar; do
+  options=(--number $number --isa baseline)
+  check_frame $number-baseline "$first"
+done
+if grep -q avx2 /proc/cpuinfo; then options=(--number lanes8 --isa avx2); check_frame lanes8-avx2 "$first"; fi
+if grep -q avx512vl /proc/cpuinfo; then options=(--number lanes16 --isa avx512); check_frame lanes16-avx512 "$first"; fi
+options=()
+check_frame masked-features GLIBC_TUNABLES="$features_glibc" "$first"
+
+number=2
+for other in "$@"; do
+  check_bake binary-$number "$other"
+  check_frame binary-$number "$other"
+  number=$((number + 1))
+done
+echo "all the same"

@@ -105,7 +105,7 @@ struct NativeDepth {
   }
   TWINSHADE_INLINE F operator()(F x, F y) const {
     const F z = plane.at(x - F(0.5f), y - F(0.5f));
-    return select(z > F(0.0f), select(z < F(1.0f), z, F(1.0f)), F(0.0f));
+    return select(z < F(1.0f), select(z > F(0.0f), z, F(0.0f)), F(1.0f));
   }
 };
 

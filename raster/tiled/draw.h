@@ -51,12 +51,13 @@ class Batch {
   // Pixels that the shader kept, of those covered.
   std::uint32_t kept(std::uint32_t quad) const;
   float frag_depth(std::uint32_t quad, std::uint32_t pixel) const;
-  // Colour and, where asked for, attributes of the pixels in `mask` to the frame.
-  void store(std::uint32_t quad, std::uint32_t mask) const;
+  // Colours of the pixels in `mask` to four RGBA pixels; attributes and unrounded colours, where asked for, to the
+  // frame.
+  void store(std::uint32_t quad, std::uint32_t mask, float* color) const;
 
  private:
   template <class R>
-  void store_as(const R* outputs, const R* inputs, std::uint32_t quad, std::uint32_t mask) const;
+  void store_extras(const R* outputs, const R* inputs, std::uint32_t quad, std::uint32_t mask) const;
 
   static constexpr std::uint32_t kStride = 4 * kBatchQuads + 16;
 
@@ -91,8 +92,13 @@ class TileWorker {
   void shade_in_order();  // in_order_pass.cpp
   void resolve_in_order();
   void store_tile();
+  template <std::size_t count>
+  void store_pixels(std::uint32_t quad, std::uint32_t first, std::size_t pixel);
 
-  ShadeQuad place(std::uint32_t tile_quad, std::uint32_t local) const;
+  ShadeQuad place(std::uint32_t tile_quad, std::uint32_t local) const {
+    const QuadOffset offset = quad_offset_[tile_quad];
+    return {std::uint16_t(tile_.x + offset.x), std::uint16_t(tile_.y + offset.y), local};
+  }
 
   const Draw& draw_;
   Batch batch_;
@@ -102,6 +108,11 @@ class TileWorker {
   CoverTile tile_{};
   AlignedArray<float> depth_;
   AlignedArray<std::uint32_t> visible_;
+  AlignedArray<float> color_;  // RGBA of the tile's pixels in memory order; stale where nothing is visible
+  struct QuadOffset {
+    std::uint8_t x, y;
+  };
+  std::vector<QuadOffset> quad_offset_;  // where each quad of the tile's memory is
   std::vector<const RasterTriangle*> triangles_;
   std::vector<std::uint32_t> locals_;
   std::vector<LocalPrimitive> primitives_;

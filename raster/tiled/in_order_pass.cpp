@@ -45,7 +45,7 @@ void TileWorker::resolve_in_order() {
       tile_.visible[pixel] = batch_.local(q);
       nearer |= 1u << i;
     }
-    if (nearer) batch_.store(q, nearer);
+    if (nearer) batch_.store(q, nearer, &color_[std::size_t(quad.quad) * 16]);
   }
   batch_.clear();
   clock_.lap(Stage::store);

@@ -1,31 +1,35 @@
 // Shading from a visibility buffer (Burns and Hunt, The visibility buffer, JCGT 2013): once all triangles of a tile
 // have been covered, each 2 x 2 quad is shaded once for each primitive visible in it.
+#include <algorithm>
+
 #include "cpu_shaders/runtime/denormals.h"
+#include "cpu_shaders/runtime/simd_lanes.h"
 #include "raster/tiled/draw.h"
 
 namespace twinshade::tiled {
 
 // Quads of one primitive side by side, so that interpolation broadcasts its vertex data: a counting sort.
 void TileWorker::collect_visible_quads() {
-  found_.clear();
+  using U4 = Simd<std::uint32_t, 4>;
   place_of_local_.assign(primitives_.size() + 1, 0);
   const std::uint32_t quads = tile_.size * tile_.size / 4;
+  found_.resize(4 * quads);
+  std::uint32_t count = 0;
   for (std::uint32_t quad = 0; quad < quads; ++quad) {
-    const std::uint32_t* visible = tile_.visible + 4 * quad;
-    std::uint32_t left = 0;
-    for (std::uint32_t i = 0; i < 4; ++i) left |= (visible[i] != kNotVisible ? 1u : 0u) << i;
+    const std::uint32_t* pixels = tile_.visible + 4 * quad;
+    const U4 visible = U4::load(pixels);
+    std::uint32_t left = (visible != U4(kNotVisible)).bits();
     while (left != 0) {
-      const std::uint32_t local = visible[__builtin_ctz(left)];
-      std::uint32_t coverage = 0;
-      for (std::uint32_t i = 0; i < 4; ++i) coverage |= (visible[i] == local ? 1u : 0u) << i;
+      const std::uint32_t local = pixels[__builtin_ctz(left)];
+      const std::uint32_t coverage = (visible == U4(local)).bits();
       left &= ~coverage;
-      found_.push_back({local, std::uint16_t(quad), std::uint16_t(coverage)});
+      found_[count++] = {local, std::uint16_t(quad), std::uint16_t(coverage)};
       ++place_of_local_[local + 1];
     }
   }
   for (std::size_t i = 1; i < place_of_local_.size(); ++i) place_of_local_[i] += place_of_local_[i - 1];
-  sorted_.resize(found_.size());
-  for (const VisibleQuad& quad : found_) sorted_[place_of_local_[quad.local]++] = quad;
+  sorted_.resize(count);
+  for (std::uint32_t i = 0; i < count; ++i) sorted_[place_of_local_[found_[i].local]++] = found_[i];
 }
 
 void TileWorker::shade_visible() {
@@ -36,12 +40,12 @@ void TileWorker::shade_visible() {
   collect_visible_quads();
   clock_.lap(Stage::raster);
 
-  for (std::size_t i = 0; i < sorted_.size(); ++i) {
-    const VisibleQuad& quad = sorted_[i];
-    batch_.add(place(quad.quad, quad.local), quad.coverage);
-    if (!batch_.full() && i + 1 < sorted_.size()) continue;
+  for (std::size_t begin = 0; begin < sorted_.size(); begin += kBatchQuads) {
+    const std::size_t end = std::min(sorted_.size(), begin + kBatchQuads);
+    for (std::size_t i = begin; i < end; ++i) batch_.add(place(sorted_[i].quad, sorted_[i].local), sorted_[i].coverage);
     batch_.shade(primitives_.data(), clock_);
-    for (std::uint32_t q = 0; q < batch_.count(); ++q) batch_.store(q, batch_.coverage(q));
+    for (std::size_t i = begin; i < end; ++i)
+      batch_.store(std::uint32_t(i - begin), sorted_[i].coverage, &color_[std::size_t(sorted_[i].quad) * 16]);
     batch_.clear();
     clock_.lap(Stage::store);
   }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstring>
 
 #include "raster/tiled/draw.h"
 
@@ -8,13 +9,20 @@ TileWorker::TileWorker(const Draw& draw)
     : draw_(draw),
       batch_(draw),
       depth_(std::size_t(draw.grid.tile_size) * draw.grid.tile_size),
-      visible_(std::size_t(draw.grid.tile_size) * draw.grid.tile_size) {
+      visible_(std::size_t(draw.grid.tile_size) * draw.grid.tile_size),
+      color_(std::size_t(draw.grid.tile_size) * draw.grid.tile_size * 4) {
   tile_.vertices = &draw.vertices;
   tile_.size = draw.grid.tile_size;
   tile_.frame_width = draw.grid.frame_width;
   tile_.frame_height = draw.grid.frame_height;
   tile_.depth = depth_.data();
   tile_.visible = visible_.data();
+  const std::uint32_t superblocks = tile_.size / kSuperblock;
+  for (std::uint32_t q = 0; q < tile_.size * tile_.size / 4; ++q) {
+    const std::uint32_t superblock = q / 64, block = q / 4 % 16, quad = q % 4;
+    quad_offset_.push_back({std::uint8_t(superblock % superblocks * 16 + block % 4 * 4 + quad % 2 * 2),
+                            std::uint8_t(superblock / superblocks * 16 + block / 4 * 4 + quad / 2 * 2)});
+  }
 }
 
 void TileWorker::draw_tile(std::uint32_t tile) {
@@ -60,33 +68,40 @@ void TileWorker::gather_triangles(std::uint32_t tile) {
   tile_.primitives = primitives_.data();
 }
 
-ShadeQuad TileWorker::place(std::uint32_t tile_quad, std::uint32_t local) const {
-  const std::uint32_t superblocks = tile_.size / kSuperblock;
-  const std::uint32_t superblock = tile_quad / 64, block = tile_quad / 4 % 16, quad = tile_quad % 4;
-  const std::uint32_t x = superblock % superblocks * 16 + block % 4 * 4 + quad % 2 * 2;
-  const std::uint32_t y = superblock / superblocks * 16 + block / 4 * 4 + quad / 2 * 2;
-  return {std::uint16_t(tile_.x + x), std::uint16_t(tile_.y + y), local};
-}
-
-// From the tile's order of pixels to the frame's rows; clears what nothing was drawn on.
+// From the tile's order of pixels to the frame's rows; clear where nothing was drawn.
 void TileWorker::store_tile() {
   Frame& frame = draw_.frame;
   const std::uint32_t quads = tile_.size * tile_.size / 4;
   for (std::uint32_t q = 0; q < quads; ++q) {
     const ShadeQuad at = place(q, 0);
-    for (std::uint32_t i = 0; i < 4; ++i) {
-      const std::uint32_t x = at.x + (i & 1), y = at.y + (i >> 1);
-      if (x >= frame.width || y >= frame.height) continue;
-      const std::size_t pixel = std::size_t(y) * frame.width + x;
-      const std::uint32_t local = tile_.visible[4 * q + i];
-      frame.depth[pixel] = tile_.depth[4 * q + i];
-      frame.coverage[pixel] = local != kNotVisible;
-      frame.primitive_id[pixel] = local != kNotVisible ? primitives_[local].primitive : kNoPrimitive;
-      if (local == kNotVisible) {
-        std::fill_n(&frame.color[4 * pixel], 4, 0.0f);
-        if (draw_.float64()) std::fill_n(&frame.color64[4 * pixel], 4, 0.0);
+    if (at.x + 1u < frame.width && at.y + 1u < frame.height) {
+      store_pixels<2>(q, 0, std::size_t(at.y) * frame.width + at.x);
+      store_pixels<2>(q, 2, (std::size_t(at.y) + 1) * frame.width + at.x);
+    } else {
+      for (std::uint32_t i = 0; i < 4; ++i) {
+        const std::uint32_t x = at.x + (i & 1), y = at.y + (i >> 1);
+        if (x < frame.width && y < frame.height) store_pixels<1>(q, i, std::size_t(y) * frame.width + x);
       }
     }
+  }
+}
+
+// `count` pixels of a quad from `first` on to neighbours in the frame.
+template <std::size_t count>
+void TileWorker::store_pixels(std::uint32_t quad, std::uint32_t first, std::size_t pixel) {
+  Frame& frame = draw_.frame;
+  const std::size_t from = 4 * std::size_t(quad) + first;
+  std::memcpy(&frame.depth[pixel], &tile_.depth[from], count * sizeof(float));
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t local = tile_.visible[from + i];
+    const bool drawn = local != kNotVisible;
+    frame.coverage[pixel + i] = drawn;
+    frame.primitive_id[pixel + i] = drawn ? primitives_[local].primitive : kNoPrimitive;
+    if (drawn)
+      std::memcpy(&frame.color[4 * (pixel + i)], &color_[4 * (from + i)], 4 * sizeof(float));
+    else
+      std::fill_n(&frame.color[4 * (pixel + i)], 4, 0.0f);
+    if (!drawn && draw_.float64()) std::fill_n(&frame.color64[4 * (pixel + i)], 4, 0.0);
   }
 }
 

@@ -76,9 +76,9 @@ TEST_CASE("a discarded fragment hides nothing") {
   for (const float depth : frame.depth) REQUIRE(depth == 0.75f);
 }
 
-TEST_CASE("written depth is clamped, NaN to zero") {
+TEST_CASE("written depth is clamped, and NaN is nearer than nothing") {
   test::Random random(7);
-  for (const auto& [written, expected] : {std::pair{-3.0f, 0.0f}, {NAN, 0.0f}, {0.3f, 0.3f}, {1.5f, 1.0f}}) {
+  for (const auto& [written, expected] : {std::pair{-3.0f, 0.0f}, {NAN, 1.0f}, {0.3f, 0.3f}, {1.5f, 1.0f}}) {
     Bundle bundle = test::empty_bundle(8, 8);
     const float full[12] = {-1, -1, 0, 1, 3, -1, 0, 1, -1, 3, 0, 1};
     test::add_triangle(bundle, full, random);

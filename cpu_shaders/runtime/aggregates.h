@@ -2,8 +2,7 @@
 // operand touches is varying.
 #pragma once
 
-#include <array>
-#include <tuple>
+#include <utility>
 
 #include "cpu_shaders/runtime/numbers.h"
 
@@ -54,59 +53,117 @@ concept Arr = detail::Shape<T>::is_arr;
 template <class T>
 concept LaneOrVec = Lane<T> || Vec<T>;
 
-// --- vec<T, n>: n components
+// --- vec<T, n>: n components x y z w
+
+namespace detail {
+template <class T, int n>
+struct Components;
+template <class T>
+struct Components<T, 1> {
+  T x;
+};
+template <class T>
+struct Components<T, 2> {
+  T x, y;
+};
+template <class T>
+struct Components<T, 3> {
+  T x, y, z;
+};
+template <class T>
+struct Components<T, 4> {
+  T x, y, z, w;
+};
+
+// The k-th value of a constructor's argument list, vectors taken apart.
+template <int k, class First, class... Rest>
+TWINSHADE_INLINE constexpr const auto& nth(const First& first, const Rest&... rest) {
+  constexpr int count = Shape<First>::count;
+  if constexpr (k >= count)
+    return nth<k - count>(rest...);
+  else if constexpr (Vec<First>)
+    return first.template at<k>();
+  else
+    return first;
+}
+template <int k, class A>
+TWINSHADE_INLINE constexpr const auto& component(const A& a) {  // a scalar stands for every component
+  if constexpr (Vec<A>)
+    return a.template at<k>();
+  else
+    return a;
+}
+template <int n>
+using Indices = std::make_integer_sequence<int, n>;
+}  // namespace detail
 
 template <class T, int n>
-struct vec {
+struct vec : detail::Components<T, n> {
   using element = T;
   static constexpr int size = n;
 
-  T e[n];
-
   vec() = default;
-  TWINSHADE_INLINE constexpr explicit vec(const T& x) : e{} {  // the same in every component
-    for (int i = 0; i < n; ++i) e[i] = x;
-  }
+  TWINSHADE_INLINE constexpr explicit vec(const T& x) : vec(Splat{}, x, detail::Indices<n>()) {}
   // From scalars and vectors, n components altogether.
   template <LaneOrVec... A>
   requires(sizeof...(A) > 1 && (detail::Shape<A>::count + ...) == n) TWINSHADE_INLINE constexpr vec(const A&... parts)
-      : e{} {
-    int at = 0;
-    (append(at, parts), ...);
-  }
+      : vec(Parts{}, detail::Indices<n>(), parts...) {}
   template <class G>
-  requires(!std::same_as<G, T> && std::convertible_to<G, T>) TWINSHADE_INLINE constexpr vec(const vec<G, n>& v)
-      : e{} {  // uniform to varying
-    for (int i = 0; i < n; ++i) e[i] = v.e[i];
-  }
+  requires(!std::same_as<G, T> && std::convertible_to<G, T>) TWINSHADE_INLINE
+      constexpr vec(const vec<G, n>& v)  // uniform to varying
+      : vec(Parts{}, detail::Indices<n>(), v) {}
   template <class G>
   requires(!std::convertible_to<G, T> && std::constructible_from<T, G>) TWINSHADE_INLINE
-      constexpr explicit vec(const vec<G, n>& v)
-      : e{} {  // value conversion
-    for (int i = 0; i < n; ++i) e[i] = T(v.e[i]);
-  }
+      constexpr explicit vec(const vec<G, n>& v)  // value conversion
+      : vec(Parts{}, detail::Indices<n>(), v) {}
 
-  TWINSHADE_INLINE constexpr T& operator[](int i) { return e[i]; }
-  TWINSHADE_INLINE constexpr const T& operator[](int i) const { return e[i]; }
+  // Constant index, or uniform index clamped into range.
+  TWINSHADE_INLINE constexpr T& operator[](int i) { return pick(*this, i); }
+  TWINSHADE_INLINE constexpr const T& operator[](int i) const { return pick(*this, i); }
+  template <number::Integer E>
+  TWINSHADE_INLINE constexpr T& operator[](Plain<E, 1> i) {
+    return pick(*this, number::clamp_index(i.e[0], n));
+  }
+  template <number::Integer E>
+  TWINSHADE_INLINE constexpr const T& operator[](Plain<E, 1> i) const {
+    return pick(*this, number::clamp_index(i.e[0], n));
+  }
   template <int i>
   TWINSHADE_INLINE constexpr T& at() {
-    static_assert(i >= 0 && i < n);
-    return e[i];
+    return const_cast<T&>(static_cast<const vec&>(*this).at<i>());
   }
   template <int i>
   TWINSHADE_INLINE constexpr const T& at() const {
     static_assert(i >= 0 && i < n);
-    return e[i];
+    if constexpr (i == 0)
+      return this->x;
+    else if constexpr (i == 1)
+      return this->y;
+    else if constexpr (i == 2)
+      return this->z;
+    else
+      return this->w;
   }
 
  private:
-  template <class A>
-  TWINSHADE_INLINE constexpr void append(int& at, const A& part) {
-    if constexpr (Vec<A>) {
-      for (int i = 0; i < A::size; ++i) e[at++] = part.e[i];
-    } else {
-      e[at++] = part;
-    }
+  struct Splat {};
+  struct Parts {};
+  template <int... k>
+  TWINSHADE_INLINE constexpr vec(Splat, const T& x, std::integer_sequence<int, k...>)
+      : detail::Components<T, n>{(static_cast<void>(k), x)...} {}
+  template <int... k, class... A>
+  TWINSHADE_INLINE constexpr vec(Parts, std::integer_sequence<int, k...>, const A&... parts)
+      : detail::Components<T, n>{static_cast<T>(detail::nth<k>(parts...))...} {}
+  template <class V>
+  static TWINSHADE_INLINE constexpr auto& pick(V& v, int i) {
+    if constexpr (n == 1)
+      return v.x;
+    else if constexpr (n == 2)
+      return i == 0 ? v.x : v.y;
+    else if constexpr (n == 3)
+      return i == 0 ? v.x : i == 1 ? v.y : v.z;
+    else
+      return i == 0 ? v.x : i == 1 ? v.y : i == 2 ? v.z : v.w;
   }
 };
 
@@ -141,6 +198,14 @@ struct mat {
 
   TWINSHADE_INLINE constexpr column& operator[](int i) { return c[i]; }
   TWINSHADE_INLINE constexpr const column& operator[](int i) const { return c[i]; }
+  template <number::Integer E>
+  TWINSHADE_INLINE constexpr column& operator[](Plain<E, 1> i) {
+    return c[number::clamp_index(i.e[0], columns)];
+  }
+  template <number::Integer E>
+  TWINSHADE_INLINE constexpr const column& operator[](Plain<E, 1> i) const {
+    return c[number::clamp_index(i.e[0], columns)];
+  }
 };
 
 // --- arr<T, n>: n of anything, structs and arrays included
@@ -152,48 +217,63 @@ struct arr {
 
   T e[n];
 
-  arr() = default;
-  template <class... A>
-  requires(sizeof...(A) == n && (std::convertible_to<A, T> && ...)) TWINSHADE_INLINE constexpr arr(const A&... parts)
-      : e{static_cast<T>(parts)...} {}
-  template <class G>
-  requires(!std::same_as<G, T> && std::convertible_to<G, T>) TWINSHADE_INLINE constexpr arr(const arr<G, n>& a) : e{} {
-    for (int i = 0; i < n; ++i) e[i] = a.e[i];
-  }
-
   TWINSHADE_INLINE constexpr T& operator[](int i) { return e[i]; }
   TWINSHADE_INLINE constexpr const T& operator[](int i) const { return e[i]; }
+  template <number::Integer E>
+  TWINSHADE_INLINE constexpr T& operator[](Plain<E, 1> i) {
+    return e[number::clamp_index(i.e[0], n)];
+  }
+  template <number::Integer E>
+  TWINSHADE_INLINE constexpr const T& operator[](Plain<E, 1> i) const {
+    return e[number::clamp_index(i.e[0], n)];
+  }
+  // Uniform to varying. A conversion rather than a constructor: arr is an aggregate, arr<F, 3>{{a, b, c}}.
+  template <class G>
+  requires(!std::same_as<G, T> && std::convertible_to<T, G>) TWINSHADE_INLINE constexpr operator arr<G, n>() const {
+    arr<G, n> r{};
+    for (int i = 0; i < n; ++i) r.e[i] = e[i];
+    return r;
+  }
 };
 
 // --- component-wise application: scalars stand for every component
 
 namespace detail {
-template <class A>
-TWINSHADE_INLINE constexpr const auto& component(const A& a, int i) {
-  if constexpr (Vec<A>)
-    return a.e[i];
-  else
-    return a;
-}
 template <class... A>
 constexpr int vec_size() {
   int size = 0;
   ((size = Vec<A> ? Shape<A>::count : size), ...);
   return size;
 }
+template <int k, class F, class... A>
+TWINSHADE_INLINE constexpr auto map_component(F f, const A&... a) {
+  return f(component<k>(a)...);
+}
+template <int... k, class F, class... A>
+TWINSHADE_INLINE constexpr auto map_components(std::integer_sequence<int, k...>, F f, const A&... a) {
+  return vec<decltype(f(component<0>(a)...)), sizeof...(k)>(map_component<k>(f, a...)...);
+}
 }  // namespace detail
 
 template <class F, class... A>
 TWINSHADE_INLINE constexpr auto map(F f, const A&... a) {
   constexpr int n = detail::vec_size<A...>();
-  if constexpr (n == 0) {
+  if constexpr (n == 0)
     return f(a...);
-  } else {
-    using R = decltype(f(detail::component(a, 0)...));
-    vec<R, n> r{};
-    for (int i = 0; i < n; ++i) r.e[i] = f(detail::component(a, i)...);
-    return r;
-  }
+  else
+    return detail::map_components(detail::Indices<n>(), f, a...);
+}
+// f(f(f(v.x, v.y), v.z), v.w)
+template <class F, Vec V>
+TWINSHADE_INLINE constexpr auto fold(F f, const V& v) {
+  if constexpr (V::size == 1)
+    return v.x;
+  else if constexpr (V::size == 2)
+    return f(v.x, v.y);
+  else if constexpr (V::size == 3)
+    return f(f(v.x, v.y), v.z);
+  else
+    return f(f(f(v.x, v.y), v.z), v.w);
 }
 
 // clang-format off
@@ -236,9 +316,8 @@ TWINSHADE_INLINE constexpr auto operator!(const A& a) {
 // GLSL's == on vectors, matrices and arrays: one bool for the whole.
 template <Vec A, Vec B>
 TWINSHADE_INLINE constexpr auto operator==(const A& a, const B& b) {
-  auto r = a.e[0] == b.e[0];
-  for (int i = 1; i < A::size; ++i) r = r & (a.e[i] == b.e[i]);
-  return r;
+  return fold([](const auto& x, const auto& y) { return x & y; },
+              map([](const auto& x, const auto& y) { return x == y; }, a, b));
 }
 template <Mat A, Mat B>
 TWINSHADE_INLINE constexpr auto operator==(const A& a, const B& b) {
@@ -262,11 +341,7 @@ requires((Vec<A> && Vec<B>) || (Mat<A> && Mat<B>) || (Arr<A> && Arr<B>)) TWINSHA
 
 template <int... k, Vec V>
 TWINSHADE_INLINE constexpr auto swizzle(const V& v) {
-  static_assert(((k >= 0 && k < V::size) && ...));
-  if constexpr (sizeof...(k) == 1)
-    return (v.e[k], ...);
-  else
-    return vec<typename V::element, sizeof...(k)>(v.e[k]...);
+  return vec<typename V::element, sizeof...(k)>(v.template at<k>()...);
 }
 
 // --- masks
@@ -284,7 +359,7 @@ TWINSHADE_INLINE constexpr auto select(const M& m, const A& a, const B& b) {
 }
 template <Lane M, Mat A, Mat B>
 TWINSHADE_INLINE constexpr auto select(const M& m, const A& a, const B& b) {
-  using T = decltype(select(m, a.c[0].e[0], b.c[0].e[0]));
+  using T = decltype(select(m, a.c[0].x, b.c[0].x));
   mat<T, A::column_count, A::row_count> r{};
   for (int i = 0; i < A::column_count; ++i) r.c[i] = select(m, a.c[i], b.c[i]);
   return r;
@@ -301,6 +376,12 @@ TWINSHADE_INLINE constexpr auto select(const M& m, const arr<A, n>& a, const arr
 template <Lane M, class T, class V>
 TWINSHADE_INLINE constexpr void assign(const M& m, T& target, const V& value) {
   target = select(m, T(value), target);
+}
+
+// Takes the lanes of `gone` out of each mask.
+template <Lane G, Lane... M>
+TWINSHADE_INLINE constexpr void leave(const G& gone, M&... masks) {
+  ((masks = masks & !gone), ...);
 }
 
 }  // namespace TWINSHADE_ISA_NAMESPACE

@@ -1,5 +1,6 @@
-// Denormals as llvmpipe's vertex and fragment stages treat them: operands and results count as zero. A property of the
-// thread, so set where a worker starts its float work and restored at the end of the scope.
+// Whether this thread keeps denormals. Fragment shaders run with them flushed, inputs and results (FTZ and DAZ in x86's
+// MXCSR, FZ in Arm's FPCR), as llvmpipe runs them; float64 runs without. x86 decides after rounding whether a result is
+// tiny, Arm before: a result that rounds up to the least normal number is kept by the one and flushed by the other.
 #pragma once
 
 #include <cstdint>
@@ -10,32 +11,42 @@
 
 namespace twinshade {
 
-class FlushDenormals {
+// For the lifetime of the object, then as it was before.
+class DenormalMode {
  public:
-  FlushDenormals() : before_(control()) { set_control(before_ | kFlush); }
-  ~FlushDenormals() { set_control(before_); }
-  FlushDenormals(const FlushDenormals&) = delete;
-  FlushDenormals& operator=(const FlushDenormals&) = delete;
+  explicit DenormalMode(bool flush) : before_(read()) { write(flush ? before_ | kFlushBits : before_ & ~kFlushBits); }
+  ~DenormalMode() { write(before_); }
+  DenormalMode(const DenormalMode&) = delete;
+  DenormalMode& operator=(const DenormalMode&) = delete;
 
  private:
 #if defined(__x86_64__)
-  using Control = std::uint32_t;
-  static constexpr Control kFlush = 0x8040;  // MXCSR: flush to zero, denormals are zero
-  static Control control() { return _mm_getcsr(); }
-  static void set_control(Control value) { _mm_setcsr(value); }
+  using Register = std::uint32_t;
+  static constexpr Register kFlushBits = 0x8040;  // FTZ, DAZ
+  static Register read() { return _mm_getcsr(); }
+  static void write(Register value) { _mm_setcsr(value); }
 #elif defined(__aarch64__)
-  using Control = std::uint64_t;
-  static constexpr Control kFlush = Control{1} << 24;  // FPCR.FZ: both
-  static Control control() {
-    Control value;
-    asm volatile("mrs %0, fpcr" : "=r"(value));
+  using Register = std::uint64_t;
+  static constexpr Register kFlushBits = 1u << 24;  // FZ
+  static Register read() {
+    Register value;
+    __asm__ volatile("mrs %0, fpcr" : "=r"(value));
     return value;
   }
-  static void set_control(Control value) { asm volatile("msr fpcr, %0" : : "r"(value) : "memory"); }
+  static void write(Register value) { __asm__ volatile("msr fpcr, %0" : : "r"(value) : "memory"); }
 #else
-#error "no way known to flush denormals on this processor"
+#error "how does this processor flush denormals?"
 #endif
-  const Control before_;
+  Register before_;
+};
+
+class FlushDenormals : DenormalMode {
+ public:
+  FlushDenormals() : DenormalMode(true) {}
+};
+class KeepDenormals : DenormalMode {
+ public:
+  KeepDenormals() : DenormalMode(false) {}
 };
 
 }  // namespace twinshade

@@ -20,34 +20,12 @@ TWINSHADE_INLINE constexpr auto clamped_index(const Index& index) {
   }
 }
 
-// A table of uniform numbers, `at(i)` its entry i, looked up by varying index: by permutes where the table fits a
-// register.
-template <int n, class E, Lane I, class At>
-TWINSHADE_INLINE auto lookup_uniform(At at, const I& index) {
+// Uniform numbers, `at(i)` being entry i, picked by varying index.
+template <class E, Lane I, class At>
+TWINSHADE_INLINE constexpr auto lookup_uniform(At at, const I& index) {
   using R = typename I::template with<E>;
-  constexpr int W = I::width;
-  if constexpr (n <= 16 && !std::same_as<I, Plain<std::int32_t, W>> && registers::has_permute16<W>) {
-    const auto entry = [&](int i) { return number::bits<std::int32_t>(i < n ? at(i) : E{0}); };
-    R r;
-#if defined(__AVX512F__)
-    if constexpr (W == 16) {
-      const Int16 table = {entry(0), entry(1), entry(2),  entry(3),  entry(4),  entry(5),  entry(6),  entry(7),
-                           entry(8), entry(9), entry(10), entry(11), entry(12), entry(13), entry(14), entry(15)};
-      r.v = (typename R::Vector)registers::permute16(table, index.v);
-    }
-#endif
-#if defined(__AVX2__)
-    if constexpr (W == 8) {
-      const Int8 low = {entry(0), entry(1), entry(2), entry(3), entry(4), entry(5), entry(6), entry(7)};
-      if constexpr (n <= 8) {
-        r.v = (typename R::Vector)registers::permute8(low, index.v);
-      } else {
-        const Int8 high = {entry(8), entry(9), entry(10), entry(11), entry(12), entry(13), entry(14), entry(15)};
-        r.v = (typename R::Vector)registers::permute16(low, high, index.v);
-      }
-    }
-#endif
-    return r;
+  if constexpr (std::same_as<E, bool>) {
+    return lookup_uniform<std::int32_t>([&](int i) { return at(i) ? 1 : 0; }, index).template to<bool>();
   } else {
     E entries[I::width];
     for (int i = 0; i < I::width; ++i) entries[i] = at(index.lane(i));
@@ -89,7 +67,7 @@ TWINSHADE_INLINE constexpr auto lookup_element(Entry entry, const I& index) {
     return entry(index.value());
   } else if constexpr (Lane<T>) {
     if constexpr (T::width == 1) {
-      return lookup_uniform<n, typename T::element>([&](int i) { return entry(i).value(); }, index);
+      return lookup_uniform<typename T::element>([&](int i) { return entry(i).value(); }, index);
     } else {
       T r = entry(0);
       for (int i = 1; i < n; ++i) r = select(index == I(i), entry(i), r);
@@ -97,11 +75,13 @@ TWINSHADE_INLINE constexpr auto lookup_element(Entry entry, const I& index) {
     }
   } else if constexpr (Vec<T>) {
     using E = typename T::element;
-    typename Varying<T, I>::type r;
-    for (int k = 0; k < T::size; ++k) {
-      r.e[k] = lookup_element<n, E>([&](int i) -> const E& { return entry(i).e[k]; }, index);
+    const auto component = [&]<int k>(std::integral_constant<int, k>) {
+      return lookup_element<n, E>([&](int i) -> const E& { return entry(i).template at<k>(); }, index);
+    };
+    return [&]<int... k>(std::integer_sequence<int, k...>) {
+      return typename Varying<T, I>::type(component(std::integral_constant<int, k>())...);
     }
-    return r;
+    (Indices<T::size>());
   } else if constexpr (Mat<T>) {
     using E = typename T::column;
     typename Varying<T, I>::type r;
@@ -132,7 +112,7 @@ TWINSHADE_INLINE constexpr auto lookup(const arr<T, n>& a, const Index& index) {
 }
 template <class T, int n, Lane Index>
 TWINSHADE_INLINE constexpr auto lookup(const vec<T, n>& v, const Index& index) {
-  return detail::lookup_element<n, T>([&](int i) -> const T& { return v.e[i]; }, detail::clamped_index<n>(index));
+  return detail::lookup_element<n, T>([&](int i) -> const T& { return v[i]; }, detail::clamped_index<n>(index));
 }
 template <class T, int c, int r, Lane Index>
 TWINSHADE_INLINE constexpr auto lookup(const mat<T, c, r>& m, const Index& index) {
@@ -154,6 +134,22 @@ TWINSHADE_INLINE constexpr void store_lookup(const M& m, A& target, const Index&
     assign(m, target[at.value()], value);
   } else {
     for (int i = 0; i < n; ++i) assign(m & (at == decltype(at)(i)), target[i], value);
+  }
+}
+
+// f(mask of the lanes that mean element k, element k) for every element that some lane of the mask means.
+template <Lane M, class A, Lane Index, class F>
+TWINSHADE_INLINE void update(const M& m, A& target, const Index& index, F f) {
+  constexpr int n = [] {
+    if constexpr (Mat<A>)
+      return A::column_count;
+    else
+      return A::size;
+  }();
+  const auto at = detail::clamped_index<n>(index);
+  for (int i = 0; i < n; ++i) {
+    const auto here = m & (at == decltype(at)(i));
+    if (any(here)) f(here, target[i]);
   }
 }
 

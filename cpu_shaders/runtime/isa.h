@@ -16,9 +16,15 @@
 // the runtime falls back to what the compiler's default target has, in a namespace of its own.
 #if defined(TWINSHADE_ISA)
 #define TWINSHADE_ISA_NAMESPACE TWINSHADE_JOIN(isa_, TWINSHADE_ISA)
+#define TWINSHADE_ISA_NUMBER TWINSHADE_JOIN(TWINSHADE_ISA_NUMBER_, TWINSHADE_ISA)
 #else
 #define TWINSHADE_ISA_NAMESPACE isa_of_compiler_default
+#define TWINSHADE_ISA_NUMBER 0
 #endif
+// As enum Isa of shader_abi.h, for #if.
+#define TWINSHADE_ISA_NUMBER_baseline 0
+#define TWINSHADE_ISA_NUMBER_avx2 1
+#define TWINSHADE_ISA_NUMBER_avx512 2
 
 #define TWINSHADE_INLINE __attribute__((always_inline)) inline
 

@@ -150,6 +150,15 @@ TWINSHADE_INLINE E round_to_even(E x) {  // the default rounding mode is never c
     return __builtin_rint(x);
 }
 
+// An index brought into [0, count).
+template <Integer E>
+TWINSHADE_INLINE constexpr int clamp_index(E i, int count) {
+  if constexpr (std::is_signed_v<E>)
+    return i < 0 ? 0 : i < count ? i : count - 1;
+  else
+    return i < static_cast<std::uint32_t>(count) ? static_cast<int>(i) : count - 1;
+}
+
 // Value conversion. Real to integer: towards zero, clamped to the type's range, NaN gives 0.
 template <Element To, Element From>
 TWINSHADE_INLINE constexpr To convert(From x) {

@@ -6,6 +6,14 @@
 namespace twinshade {
 inline namespace TWINSHADE_ISA_NAMESPACE {
 
+// texture.h
+template <class Real>
+struct Sampler2D;
+template <class Real>
+struct Sampler2DArray;
+template <class Real>
+struct SamplerCube;
+
 // SPMD: W invocations at once, float.
 template <int W>
 struct Lanes {
@@ -20,6 +28,9 @@ struct Lanes {
   using UI = Plain<std::int32_t, 1>;
   using UU = Plain<std::uint32_t, 1>;
   using UB = Plain<bool, 1>;
+  using sampler2D = Sampler2D<real>;
+  using sampler2DArray = Sampler2DArray<real>;
+  using samplerCube = SamplerCube<real>;
 };
 
 // One invocation (W = 1), or one quad (W = 4) for shaders that use derivatives, a lane at a time.
@@ -36,6 +47,9 @@ struct Steps {
   using UI = Plain<std::int32_t, 1>;
   using UU = Plain<std::uint32_t, 1>;
   using UB = Plain<bool, 1>;
+  using sampler2D = Sampler2D<real>;
+  using sampler2DArray = Sampler2DArray<real>;
+  using samplerCube = SamplerCube<real>;
 };
 using Scalar32 = Steps<float, 1>;
 using Scalar64 = Steps<double, 1>;

@@ -26,6 +26,9 @@ struct Plain {
   TWINSHADE_INLINE constexpr Plain(T x) : e{} {
     for (int i = 0; i < W; ++i) e[i] = x;
   }
+  template <std::same_as<float> T>
+  requires std::same_as<E, double> TWINSHADE_INLINE constexpr Plain(T x)  // constants are the float values, widened
+      : Plain(static_cast<double>(x)) {}
   template <int V>
   requires(V == 1 && W != 1) TWINSHADE_INLINE constexpr Plain(Plain<E, V> x) : Plain(x.e[0]) {}
   // Value conversion, as number::convert.
@@ -36,7 +39,10 @@ struct Plain {
 
   TWINSHADE_INLINE constexpr E lane(int i) const { return e[i]; }
   TWINSHADE_INLINE constexpr void set_lane(int i, E x) { e[i] = x; }
-  TWINSHADE_INLINE constexpr E value() const requires(W == 1) { return e[0]; }
+  TWINSHADE_INLINE constexpr E value() const {
+    static_assert(W == 1);
+    return e[0];
+  }
   TWINSHADE_INLINE constexpr explicit operator bool() const requires(W == 1 && std::same_as<E, bool>) { return e[0]; }
 
   static TWINSHADE_INLINE Plain load(const E* from) {

@@ -192,17 +192,15 @@ TWINSHADE_INLINE Register<E, W> gather(const E* base, Register<std::int32_t, W> 
   return r;
 }
 
-// table[index & 15] of a table held in registers: 16 entries, in order. False at compile time where there is no permute
-// that beats loading (W, target).
+// --- tables held in registers
+
+// 64-byte aligned words.
 template <int W>
-inline constexpr bool has_permute16 =
-#if defined(__AVX512F__)
-    W == 16 || W == 8;
-#elif defined(__AVX2__)
-    W == 8;
-#else
-    false;
-#endif
+TWINSHADE_INLINE Register<std::int32_t, W> load(const std::int32_t* from) {
+  Register<std::int32_t, W> r;
+  std::memcpy(&r, __builtin_assume_aligned(from, W * 4), sizeof r);
+  return r;
+}
 
 #if defined(__AVX2__)
 TWINSHADE_INLINE Int8 permute8(Int8 table, Int8 index) {  // table[index & 7]
@@ -213,6 +211,9 @@ TWINSHADE_INLINE Int8 permute16(Int8 low, Int8 high, Int8 index) {
 }
 #endif
 #if defined(__AVX512F__)
+TWINSHADE_INLINE Int16 permute32(Int16 low, Int16 high, Int16 index) {
+  return (Int16)_mm512_maskz_permutex2var_epi32(0xffff, (__m512i)low, (__m512i)index, (__m512i)high);
+}
 TWINSHADE_INLINE Int16 permute16(Int16 table, Int16 index) {
   return (Int16)_mm512_maskz_permutexvar_epi32(0xffff, (__m512i)index, (__m512i)table);
 }

@@ -1,0 +1,157 @@
+// What a generated shader inherits: its invocations' inputs and outputs in the arrays of ShadeCall, its resources, and
+// the loop over a block.
+#pragma once
+
+#include "cpu_shaders/runtime/aggregates.h"
+#include "cpu_shaders/runtime/shader_abi.h"
+#include "cpu_shaders/runtime/texture.h"
+
+namespace twinshade {
+inline namespace TWINSHADE_ISA_NAMESPACE {
+
+namespace detail {
+
+// One component of N::width invocations. Arrays hold N::real: integers by bit pattern in float arrays, by value in
+// double ones.
+template <class N, Lane T>
+TWINSHADE_INLINE T load_component(const typename N::real* from) {
+  using E = typename T::element;
+  using R = typename T::template with<typename N::real>;
+  const R x = R::load(static_cast<const typename N::real*>(__builtin_assume_aligned(from, N::width * sizeof *from)));
+  if constexpr (std::same_as<E, typename N::real>)
+    return x;
+  else if constexpr (!N::is_exact_float)
+    return x.template to<E>();
+  else if constexpr (std::same_as<E, bool>)
+    return x.template as<std::uint32_t>().template to<bool>();
+  else
+    return x.template as<E>();
+}
+template <class N, Lane T>
+TWINSHADE_INLINE void store_component(typename N::real* to, const T& value) {
+  using E = typename T::element;
+  to = static_cast<typename N::real*>(__builtin_assume_aligned(to, N::width * sizeof *to));
+  if constexpr (std::same_as<E, typename N::real>)
+    value.store(to);
+  else if constexpr (!N::is_exact_float)
+    value.template to<typename N::real>().store(to);
+  else if constexpr (std::same_as<E, bool>)
+    value.template to<std::uint32_t>().template as<float>().store(to);
+  else
+    value.template as<float>().store(to);
+}
+// Masks in memory: words of 0 or ~0.
+template <class N>
+TWINSHADE_INLINE typename N::B load_mask(const std::uint32_t* from) {
+  return N::U::load(from) != typename N::U(0u);
+}
+template <class N>
+TWINSHADE_INLINE void store_mask(std::uint32_t* to, const typename N::B& m) {
+  select(m, typename N::U(~0u), typename N::U(0u)).store(to);
+}
+
+// f(component number, lane of the value) for every component, in the ABI's order: element-major, column-major.
+template <class T, class F>
+TWINSHADE_INLINE void for_each_component(T& value, std::uint32_t& at, F f) {
+  using V = std::remove_const_t<T>;
+  if constexpr (Lane<V>) {
+    f(at++, value);
+  } else if constexpr (Vec<V>) {
+    [&]<int... k>(std::integer_sequence<int, k...>) { (for_each_component(value.template at<k>(), at, f), ...); }
+    (Indices<V::size>());
+  } else if constexpr (Mat<V>) {
+    for (int i = 0; i < V::column_count; ++i) for_each_component(value.c[i], at, f);
+  } else {
+    for (int i = 0; i < V::size; ++i) for_each_component(value.e[i], at, f);
+  }
+}
+
+}  // namespace detail
+
+template <class N>
+class ShaderBase {
+ public:
+  using real = typename N::real;
+  using F = typename N::F;
+  using I = typename N::I;
+  using B = typename N::B;
+
+  TWINSHADE_INLINE ShaderBase(const ShaderData& data, const ShadeCall& call) : data_(data), call_(call) {}
+
+  // Moves to invocations first .. first + N::width - 1.
+  TWINSHADE_INLINE void begin(std::uint32_t first) {
+    first_ = first;
+    kept = live();
+  }
+  TWINSHADE_INLINE void finish() const { detail::store_mask<N>(call_.kept + first_, kept); }
+
+  B kept;  // live and not discarded so far
+
+ protected:
+  template <class T>
+  TWINSHADE_INLINE T input(std::uint32_t first_component) const {
+    T r;
+    detail::for_each_component(r, first_component, [&](std::uint32_t component, auto& lanes) {
+      using L = std::remove_reference_t<decltype(lanes)>;
+      lanes = detail::load_component<N, L>(at(call_.inputs, component));
+    });
+    return r;
+  }
+  template <class T>
+  TWINSHADE_INLINE void output(std::uint32_t first_component, const T& value) const {
+    detail::for_each_component(value, first_component, [&](std::uint32_t component, const auto& lanes) {
+      detail::store_component<N>(at(call_.outputs, component), varying(lanes));
+    });
+  }
+  TWINSHADE_INLINE vec<F, 4> frag_coord() const {
+    return {
+        detail::load_component<N, F>(at(call_.frag_coord, 0)), detail::load_component<N, F>(at(call_.frag_coord, 1)),
+        detail::load_component<N, F>(at(call_.frag_coord, 2)), detail::load_component<N, F>(at(call_.frag_coord, 3))};
+  }
+  TWINSHADE_INLINE B live() const { return detail::load_mask<N>(call_.live + first_); }
+  TWINSHADE_INLINE B front_facing() const { return detail::load_mask<N>(call_.front_facing + first_); }
+  TWINSHADE_INLINE I primitive_id() const {
+    return N::U::load(call_.primitive_id + first_).template to<std::int32_t>();
+  }
+  TWINSHADE_INLINE void frag_depth(const F& depth) const { detail::store_component<N>(at(call_.frag_depth, 0), depth); }
+
+  TWINSHADE_INLINE Sampler2D<real> texture_2d(std::uint32_t slot) const { return {&data_.textures[slot]}; }
+  TWINSHADE_INLINE Sampler2DArray<real> texture_2d_array(std::uint32_t slot) const { return {&data_.textures[slot]}; }
+  TWINSHADE_INLINE SamplerCube<real> texture_cube(std::uint32_t slot) const { return {&data_.textures[slot]}; }
+  TWINSHADE_INLINE BufferView buffer(std::uint32_t slot) const { return data_.buffers[slot]; }
+  // Uniforms outside blocks; `bytes` is ShaderModule::uniform_bytes. Never written through.
+  TWINSHADE_INLINE BufferView uniforms(std::uint32_t bytes) const {
+    return {const_cast<std::byte*>(data_.uniforms), bytes};
+  }
+
+ private:
+  TWINSHADE_INLINE const real* at(const void* array, std::uint32_t component) const {
+    return static_cast<const real*>(array) + std::size_t{component} * call_.stride + first_;
+  }
+  TWINSHADE_INLINE real* at(void* array, std::uint32_t component) const {
+    return static_cast<real*>(array) + std::size_t{component} * call_.stride + first_;
+  }
+  // An output may be computed from uniforms alone.
+  template <Lane T>
+  static TWINSHADE_INLINE auto varying(const T& x) {
+    return typename F::template with<typename T::element>(x);
+  }
+
+  const ShaderData& data_;
+  const ShadeCall& call_;
+  std::uint32_t first_ = 0;
+};
+
+// The body of an entry: S<N> is run over the block in steps of N::width.
+template <template <class> class S, class N>
+TWINSHADE_INLINE void shade_all(const ShaderData& data, const ShadeCall& call) {
+  S<N> shader(data, call);
+  for (std::uint32_t first = 0; first < call.count; first += N::width) {
+    shader.begin(first);
+    shader.run();
+    shader.finish();
+  }
+}
+
+}  // namespace TWINSHADE_ISA_NAMESPACE
+}  // namespace twinshade

@@ -1,0 +1,44 @@
+// All transcendental functions of shaders/exact/ in one shader, chosen by an input, so that one compilation serves all
+// tests.
+#pragma once
+
+#include "tests/exact/shader_rows.h"
+
+namespace twinshade::test {
+
+enum class Function { exp2 = 0, log2, pow, sin, cos, atan2, acos, asin };
+
+inline constexpr const char* kTranscendentalShader = R"(
+#include "exact/acos.glsl"
+#include "exact/atan2.glsl"
+#include "exact/pow.glsl"
+#include "exact/sin_cos.glsl"
+
+in float which;
+in float x;
+in float y;
+layout(location = 0) out float value;
+
+void main() {
+  int function = int(which);
+  if (function == 0) value = exact_exp2(x);
+  else if (function == 1) value = exact_log2(x);
+  else if (function == 2) value = exact_pow(x, y);
+  else if (function == 3) value = exact_sin(x);
+  else if (function == 4) value = exact_cos(x);
+  else if (function == 5) value = exact_atan2(x, y);
+  else if (function == 6) value = exact_acos(x);
+  else value = exact_asin(x);
+}
+)";
+
+// y is ignored by functions of one argument.
+inline std::vector<float> evaluate(const RowShader& shader, Function function, const std::vector<float>& x,
+                                   const std::vector<float>& y) {
+  std::vector<float> inputs(x.size(), static_cast<float>(function));
+  inputs.insert(inputs.end(), x.begin(), x.end());
+  inputs.insert(inputs.end(), y.begin(), y.end());
+  return shader.run(inputs, x.size());
+}
+
+}  // namespace twinshade::test

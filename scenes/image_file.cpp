@@ -22,7 +22,37 @@ constexpr int kLargestSide = 65536;
                   ": cannot be read as an image: " + (reason.empty() ? "unknown format or damaged file" : reason));
 }
 
-bool starts_with(std::string_view bytes, std::string_view magic) { return bytes.substr(0, magic.size()) == magic; }
+bool is_png(std::string_view bytes) { return bytes.substr(0, 4) == "\x89PNG"; }
+bool is_jpeg(std::string_view bytes) { return bytes.substr(0, 2) == "\xff\xd8"; }
+
+std::uint32_t big_endian(std::string_view bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+  return value;
+}
+
+// The check of ISO 3309 that PNG's chunks carry.
+std::uint32_t crc32(std::string_view bytes) {
+  std::uint32_t crc = ~0u;
+  for (char byte : bytes) {
+    crc ^= static_cast<unsigned char>(byte);
+    for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0);
+  }
+  return ~crc;
+}
+
+// libpng writes to stderr about damage; chunks that are all there with their checksums give it no reason to
+// (W3C, Portable network graphics, section 5).
+bool png_is_whole(std::string_view bytes) {
+  for (std::size_t at = 8; at + 12 <= bytes.size();) {
+    const std::size_t length = big_endian(bytes, at);
+    if (length > bytes.size() - at - 12) return false;
+    if (crc32(bytes.substr(at + 4, length + 4)) != big_endian(bytes, at + 8 + length)) return false;
+    if (bytes.substr(at + 4, 4) == "IEND") return true;
+    at += length + 12;
+  }
+  return false;
+}
 
 // libjpeg fills what is missing with grey and only warns; a whole file has an end-of-image marker after its first scan
 // (ITU-T T.81, annex B: in entropy-coded data FF is followed by 00 or a restart marker).
@@ -40,6 +70,12 @@ bool jpeg_is_whole(std::string_view bytes) {
     at += 2 + (std::size_t(byte(at + 2)) << 8 | byte(at + 3));
   }
   return false;
+}
+
+void check_whole(std::string_view bytes, const std::string& name) {
+  if (bytes.empty()) refuse(name, "the file is empty");
+  if ((is_png(bytes) && !png_is_whole(bytes)) || (is_jpeg(bytes) && !jpeg_is_whole(bytes)))
+    refuse(name, "the file is truncated or damaged");
 }
 
 DecodedImage read_all(OIIO::ImageInput& input, const std::string& name) {
@@ -98,8 +134,7 @@ std::string lower_case_ending(const std::string& path) {
 
 DecodedImage decode_image_file(const std::string& path) {
   const std::string bytes = read_file(path);
-  if (bytes.empty()) refuse(path, "the file is empty");
-  if (starts_with(bytes, "\xff\xd8") && !jpeg_is_whole(bytes)) refuse(path, "the file is truncated");
+  check_whole(bytes, path);
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path, &config);
@@ -108,14 +143,15 @@ DecodedImage decode_image_file(const std::string& path) {
 }
 
 DecodedImage decode_image_memory(std::string_view bytes, const std::string& name) {
-  const bool png = starts_with(bytes, "\x89PNG"), jpeg = starts_with(bytes, "\xff\xd8");
-  if (!png && !jpeg) refuse(name, "neither PNG nor JPEG");
-  if (jpeg && !jpeg_is_whole(bytes)) refuse(name, "the file is truncated");
+  const bool png = is_png(bytes);
+  if (!png && !is_jpeg(bytes)) refuse(name, "neither PNG nor JPEG");
+  check_whole(bytes, name);
   OIIO::Filesystem::IOMemReader reader(const_cast<char*>(bytes.data()), bytes.size());
+  OIIO::Filesystem::IOProxy* proxy = &reader;
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);
-  const std::unique_ptr<OIIO::ImageInput> input =
-      OIIO::ImageInput::open(png ? "memory.png" : "memory.jpg", &config, &reader);
+  config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(png ? "memory.png" : "memory.jpg", &config);
   if (!input) refuse(name, OIIO::geterror());
   return read_all(*input, name);
 }

@@ -57,6 +57,8 @@ void PatchMesh::build(Scene& scene, std::uint32_t triangles) const {
     std::vector<dvec3> normals;
     for (std::uint32_t j = 0; j <= rows; ++j)
       for (std::uint32_t i = 0; i <= columns; ++i) {
+        // A pole has one vertex a triangle, one less than a row.
+        if ((patch.pole_at_start && j == 0 && i == columns) || (patch.pole_at_end && j == rows && i == 0)) continue;
         const SurfacePoint point = patch.at(double(i) / columns, double(j) / rows);
         const dvec3 normal = glm::normalize(point.normal);
         const dvec3 position(snap(point.position.x), snap(point.position.y), snap(point.position.z));
@@ -73,7 +75,10 @@ void PatchMesh::build(Scene& scene, std::uint32_t triangles) const {
     std::vector<std::uint32_t> indices;
     for (std::uint32_t j = 0; j < rows; ++j)
       for (std::uint32_t i = 0; i < columns; ++i) {
-        const std::uint32_t a = j * (columns + 1) + i, b = a + 1, d = a + columns + 1, c = d + 1;
+        const std::uint32_t a = j * (columns + 1) + i - (patch.pole_at_start && j > 0), b = a + 1;
+        const std::uint32_t d =
+            (j + 1) * (columns + 1) + i - patch.pole_at_start - (patch.pole_at_end && j + 1 == rows);
+        const std::uint32_t c = d + 1;
         if (!(patch.pole_at_start && j == 0)) indices.insert(indices.end(), {a, b, c});
         if (!(patch.pole_at_end && j + 1 == rows)) indices.insert(indices.end(), {a, c, d});
       }

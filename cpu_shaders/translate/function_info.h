@@ -51,6 +51,9 @@ struct Program {
 // Structures every reachable function, folds conditional expressions and gathers the facts, liveness included.
 Program analyse(Module module);
 
+// Before all else: peephole.cpp.
+void simplify(Module& module, Function& function);
+
 // Turns  if (c) t = a; else t = b;  with pure a and b into t = select(c, a, b), where t is glslang's own temporary (the
 // form that ?:, && and || arrive in), and two pure returns into one.
 void fold_conditionals(Module& module, Body& body);

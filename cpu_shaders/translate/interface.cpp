@@ -79,6 +79,7 @@ class Describer {
     g.role = role;
     g.type = v.type;
     g.name = names_.declare(name);
+    g.mentioned = mentioned_.count(v.id) != 0;
     return result_.globals[v.id] = g;
   }
 

@@ -19,11 +19,12 @@ struct Global {
   std::uint32_t first_component = 0;
   std::uint32_t slot = 0;    // samplers, blocks
   std::uint32_t offset = 0;  // uniforms outside blocks
+  bool mentioned = false;    // by a function that main reaches
   bool in_block = false;     // a uniform block small enough to be loaded once, before all invocations
 };
 
 struct Interface {
-  std::map<Id, Global> globals;  // those that reachable functions mention
+  std::map<Id, Global> globals;
   Reflection reflection;
 };
 

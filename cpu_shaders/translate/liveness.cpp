@@ -61,7 +61,7 @@ class Liveness {
       if (s.back_condition != 0) back.insert(after.begin(), after.end());
       s.live_continuing = before(s.continuing, back);
       Set next = before(s.body, s.live_continuing);
-      if (next == head) return head;
+      if (next == head) return s.live_head = head;
       next.insert(head.begin(), head.end());
       head = std::move(next);
     }

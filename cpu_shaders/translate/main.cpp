@@ -1,7 +1,7 @@
 // The build's translator: one built-in shader becomes one C++ file.
 //   twinshade-translate NAME KIND IDENTIFIER OUT.cpp
-// NAME: of lighting/registry.def. KIND: lightmap or vertex (the technique's fragment shader with that coefficient storage), or
-// basis_values (the basis' functions at a direction, for the host).
+// NAME: of lighting/registry.def. KIND: lightmap or vertex (the technique's fragment shader with that coefficient
+// storage), or basis_values (the basis' functions at a direction, for the host).
 #include <cstdio>
 #include <exception>
 #include <string>

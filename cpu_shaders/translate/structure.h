@@ -54,8 +54,8 @@ struct Statement {
   Id value = 0;                 // give_back; 0: void
 
   // Filled by liveness (variables whose value may still be read): after the statement, at the start of the else branch,
-  // of a loop's `continuing`, of each case.
-  std::set<Id> live_after, live_else, live_continuing;
+  // of a loop's `continuing` and body, of each case.
+  std::set<Id> live_after, live_else, live_continuing, live_head;
   std::vector<std::set<Id>> live_cases;
 };
 

@@ -1,0 +1,359 @@
+// Values: expression trees, one C++ statement for each GLSL statement. A value that is used once is written where it is
+// used, unless something that it reads is written in between.
+#include <algorithm>
+
+#include "base/error.h"
+#include "cpu_shaders/translate/emit_function.h"
+#include "cpu_shaders/translate/extended_instructions.h"
+
+namespace twinshade::spirv {
+
+void FunctionEmitter::refuse(const Instruction& i, const std::string& what, const std::string& remedy) const {
+  throw UserError(module_.position(i).text() + ": " + what + " is not supported: " + remedy);
+}
+
+void FunctionEmitter::no_float64(const Instruction& i, const std::string& what) {
+  if (shared_.no_float64_reason.empty()) shared_.no_float64_reason = module_.position(i).text() + ": " + what;
+}
+
+Expression FunctionEmitter::value(Id id) {
+  const auto pending = std::find_if(pending_.begin(), pending_.end(), [&](const Pending& p) { return p.id == id; });
+  if (pending != pending_.end()) {
+    Expression e = std::move(pending->expression);
+    pending_.erase(pending);
+    return e;
+  }
+  const auto known = values_.find(id);
+  if (known != values_.end()) return known->second;
+  if (module_.is_constant(id)) {
+    Expression e;
+    e.text = types_.constant(id);
+    e.precedence = 1;
+    return e;
+  }
+  const auto argument = argument_values_.find(id);
+  if (argument != argument_values_.end()) return value(argument->second);
+  throw UserError(module_.position(info_.function->file, info_.function->line).text() + ": " + info_.function->name +
+                  " uses a value that it does not compute: this is a fault of the translator");
+}
+
+std::string FunctionEmitter::text(Id id, int most) {
+  Expression e = value(id);
+  return e.precedence > most ? "(" + e.text + ")" : e.text;
+}
+
+void FunctionEmitter::define(const Instruction& i, Expression e, bool statement) {
+  const auto found = info_.uses.find(i.result);
+  const int uses = found == info_.uses.end() ? 0 : found->second;
+  if (uses == 0) {
+    if (statement) out_.line(e.text + ";");
+    return;
+  }
+  // Names, constants and inputs may be written again and again.
+  const bool trivial =
+      e.reads.empty() && e.precedence <= 1 && e.text.find(' ') == std::string::npos && e.text.size() < 32;
+  if (!statement && uses > 1 && trivial) {
+    values_[i.result] = std::move(e);
+    return;
+  }
+  pending_.push_back({i.result, std::move(e)});
+  if (statement || uses > 1) {
+    position(i.file, i.line);
+    Pending own = std::move(pending_.back());
+    pending_.pop_back();
+    materialise(own);
+  }
+}
+
+void FunctionEmitter::materialise(Pending& pending) {
+  const std::string name = names_.declare("t" + std::to_string(++temporary_count_));
+  out_.line("const " + type_of(pending.id) + " " + name + " = " + pending.expression.text + ";");
+  Expression e;
+  e.text = name;
+  e.precedence = 1;
+  values_[pending.id] = e;
+}
+
+void FunctionEmitter::flush() {
+  std::vector<Pending> all;
+  all.swap(pending_);
+  for (Pending& p : all) materialise(p);
+}
+
+void FunctionEmitter::before_write(Id root) {
+  std::vector<Pending> all;
+  all.swap(pending_);
+  for (Pending& p : all) {
+    if (p.expression.reads.count(root))
+      materialise(p);
+    else
+      pending_.push_back(std::move(p));
+  }
+}
+
+Expression FunctionEmitter::binary(const Instruction& i, const char* op, int precedence) {
+  const Expression left = value(i.operands[0]), right = value(i.operands[1]);
+  // Where compilers ask for parentheses, readers want them too.
+  const bool plain = precedence == 5 || precedence == 6;
+  const auto wrap = [&](const Expression& x, bool is_right) {
+    const bool needs = plain ? x.precedence > precedence || (is_right && x.precedence == precedence)
+                             : x.precedence > (precedence < 9 ? 3 : 6);
+    return needs ? "(" + x.text + ")" : x.text;
+  };
+  Expression e;
+  e.text = wrap(left, false) + " " + op + " " + wrap(right, true);
+  e.precedence = precedence;
+  e.reads = left.reads;
+  e.reads.insert(right.reads.begin(), right.reads.end());
+  return e;
+}
+
+Expression FunctionEmitter::call_text(const Instruction&, const std::string& function,
+                                      const std::vector<Id>& arguments) {
+  Expression e;
+  e.precedence = 1;
+  e.text = function + "(";
+  for (std::size_t k = 0; k < arguments.size(); ++k) {
+    const Expression a = value(arguments[k]);
+    e.text += (k == 0 ? "" : ", ") + a.text;
+    e.reads.insert(a.reads.begin(), a.reads.end());
+  }
+  e.text += ")";
+  return e;
+}
+
+Expression FunctionEmitter::extended(const Instruction& i) {
+  const std::uint32_t number = i.operands[1];
+  const ExtendedInstruction* known = extended_instruction(number);
+  if (known == nullptr || known->function == nullptr)
+    refuse(i,
+           known == nullptr ? "the built-in function with GLSL.std.450 number " + std::to_string(number)
+                            : std::string("the built-in function ") + known->glsl,
+           known == nullptr ? "write it out" : known->remedy);
+  if (known->bits) no_float64(i, known->glsl);
+  return call_text(i, std::string("glsl::") + known->function, {i.operands.begin() + 2, i.operands.end()});
+}
+
+// Constructors. A vector taken apart and put together in order is passed whole.
+Expression FunctionEmitter::composite(const Instruction& i) {
+  const Type& type = module_.type(i.type);
+  Expression e;
+  e.precedence = 1;
+  e.text = types_.name(i.type, at_.is_varying(i.result));
+  const char* open = type.kind == Kind::array ? "{{" : type.kind == Kind::structure ? "{" : "(";
+  const char* close = type.kind == Kind::array ? "}}" : type.kind == Kind::structure ? "}" : ")";
+  e.text += open;
+  const auto add = [&](const Expression& part, bool first) {
+    e.text += (first ? "" : ", ") + part.text;
+    e.reads.insert(part.reads.begin(), part.reads.end());
+  };
+  const bool same = type.kind == Kind::vector && i.operands.size() == type.count &&
+                    std::all_of(i.operands.begin(), i.operands.end(), [&](Id id) { return id == i.operands[0]; });
+  const std::size_t count = same ? 1 : i.operands.size();
+  for (std::size_t k = 0; k < count; ++k) add(value(i.operands[k]), k == 0);
+  e.text += close;
+  return e;
+}
+
+Expression FunctionEmitter::extract(const Instruction& i) {
+  Expression e = value(i.operands[0]);
+  if (e.precedence > 1) e.text = "(" + e.text + ")";
+  e.precedence = 1;
+  Id type = module_.value_types.at(i.operands[0]);
+  for (std::size_t k = 1; k < i.operands.size(); ++k) {
+    Step s;
+    s.kind = Step::Kind::constant;
+    s.container = type;
+    s.index = i.operands[k];
+    s.text = std::to_string(s.index);
+    e.text = step_text(e.text, s);
+    const Type& t = module_.type(type);
+    type = t.kind == Kind::structure ? t.members[s.index] : t.element;
+  }
+  return e;
+}
+
+Expression FunctionEmitter::select(const Instruction& i) {
+  const Expression c = value(i.operands[0]);
+  const Expression a = value(i.operands[1]), b = value(i.operands[2]);
+  Expression e;
+  e.reads = c.reads;
+  e.reads.insert(a.reads.begin(), a.reads.end());
+  e.reads.insert(b.reads.begin(), b.reads.end());
+  e.precedence = 1;
+  const bool varying = at_.is_varying(i.result);
+  const Kind kind = module_.type(i.type).kind;
+  std::string left = a.text, right = b.text;
+  const bool a_varies = at_.is_varying(i.operands[1]), b_varies = at_.is_varying(i.operands[2]);
+  // Aggregates of structs must be of one type; two uniform sides under a varying condition must become varying.
+  if (varying && ((!a_varies && !b_varies) || kind == Kind::structure || kind == Kind::array)) {
+    const std::string type = types_.name(i.type, true);
+    if (!a_varies) left = type + "(" + left + ")";
+    if (!b_varies && (kind == Kind::structure || kind == Kind::array)) right = type + "(" + right + ")";
+  }
+  e.text = "select(" + c.text + ", " + left + ", " + right + ")";
+  return e;
+}
+
+void FunctionEmitter::call(const Instruction& i) {
+  const Instance& callee = *at_.callees.at(&i);
+  const FunctionInfo& info = *callee.info;
+  std::vector<std::string> arguments;
+  Expression e;
+  if (callee.needs_mask) arguments.push_back(mask_or_all());
+  for (std::size_t k = 0; k + 1 < i.operands.size(); ++k) {
+    const Id id = i.operands[k + 1];
+    if (module_.type_of(id).kind != Kind::pointer || info_.argument_temporaries.count(id)) {
+      const Expression a = value(id);
+      e.reads.insert(a.reads.begin(), a.reads.end());
+      arguments.push_back(a.text);
+    } else {
+      const Place p = place(id);
+      const Expression a = load(p);
+      e.reads.insert(a.reads.begin(), a.reads.end());
+      arguments.push_back(a.text);
+    }
+  }
+  e.precedence = 1;
+  e.text = callee.name + "(";
+  for (std::size_t k = 0; k < arguments.size(); ++k) e.text += (k == 0 ? "" : ", ") + arguments[k];
+  e.text += ")";
+  e.reads.insert(info.globals_read.begin(), info.globals_read.end());
+  if (info.reads_buffers) e.reads.insert(kBuffers);
+  if (info.pure() && module_.type(i.type).kind != Kind::none) {
+    define(i, std::move(e));
+    return;
+  }
+  // Everything that it writes changes now: what reads it comes first, and the call is a statement.
+  for (Id g : info.globals_written) before_write(g);
+  if (info.writes_buffers) before_write(kBuffers);
+  for (std::size_t k = 0; k + 1 < i.operands.size(); ++k)
+    if (info.is_reference(k)) before_write(root_of(info_, i.operands[k + 1]));
+  position(i.file, i.line);
+  if (module_.type(i.type).kind == Kind::none)
+    out_.line(e.text + ";");
+  else
+    define(i, std::move(e), true);
+}
+
+void FunctionEmitter::instruction(const Instruction& i) {
+  if (arithmetic(i) || texture(i)) return;
+  switch (i.op) {
+    case spv::OpVariable:
+    case spv::OpAccessChain:
+    case spv::OpInBoundsAccessChain:
+      return;
+    case spv::OpLoad:
+      if (module_.type(i.type).kind == Kind::sampler || module_.type(i.type).kind == Kind::image) {
+        values_[i.result] = load(place(i.operands[0]));
+        return;
+      }
+      return define(i, load(place(i.operands[0])));
+    case spv::OpStore:
+      return store(i);
+    case spv::OpFunctionCall:
+      return call(i);
+    case spv::OpExtInst:
+      if (i.operands[1] == 35) {  // modf(x, whole) is whole = trunc(x), x - whole, as in Mesa
+        const Id x = i.operands[2];
+        Pending whole{x, value(x)};
+        position(i.file, i.line);
+        materialise(whole);
+        const Place p = place(i.operands[3]);
+        before_write(p.root);
+        const std::string name = values_.at(x).text;
+        store_to(i, p, "glsl::trunc(" + name + ")");
+        Expression e;
+        e.text = name + " - glsl::trunc(" + name + ")";
+        e.precedence = 6;
+        return define(i, e);
+      }
+      return define(i, extended(i));
+    case spv::OpCompositeConstruct:
+      return define(i, composite(i));
+    case spv::OpCompositeExtract:
+      return define(i, extract(i));
+    case spv::OpCompositeInsert: {
+      position(i.file, i.line);
+      const std::string name = names_.declare("t" + std::to_string(++temporary_count_));
+      out_.line(type_of(i.result) + " " + name + " = " + value(i.operands[1]).text + ";");
+      Step s;
+      s.kind = Step::Kind::constant;
+      std::string target = name;
+      Id type = i.type;
+      for (std::size_t k = 2; k < i.operands.size(); ++k) {
+        s.container = type;
+        s.index = i.operands[k];
+        s.text = std::to_string(s.index);
+        target = step_text(target, s);
+        const Type& t = module_.type(type);
+        type = t.kind == Kind::structure ? t.members[s.index] : t.element;
+      }
+      out_.line(target + " = " + value(i.operands[0]).text + ";");
+      Expression e;
+      e.text = name;
+      e.precedence = 1;
+      values_[i.result] = e;
+      return;
+    }
+    case spv::OpVectorExtractDynamic: {
+      Expression v = value(i.operands[0]);
+      const Expression index = value(i.operands[1]);
+      v.reads.insert(index.reads.begin(), index.reads.end());
+      if (at_.is_varying(i.operands[1]))
+        v.text = "lookup(" + v.text + ", " + index.text + ")";
+      else
+        v.text = (v.precedence > 1 ? "(" + v.text + ")" : v.text) + "[" + index.text + "]";
+      v.precedence = 1;
+      return define(i, v);
+    }
+    case spv::OpVectorShuffle:
+      return define(i, [&] {
+        const std::uint32_t size = module_.type_of(i.operands[0]).count;
+        const bool one_vector =
+            std::all_of(i.operands.begin() + 2, i.operands.end(), [&](std::uint32_t k) { return k < size; });
+        Expression e;
+        e.precedence = 1;
+        const Expression a = value(i.operands[0]);
+        e.reads = a.reads;
+        std::string picks;
+        for (std::size_t k = 2; k < i.operands.size(); ++k)
+          picks += (k == 2 ? "" : ", ") + std::to_string(i.operands[k]);
+        if (one_vector || i.operands[0] == i.operands[1]) {
+          e.text = "swizzle<" + picks + ">(" + a.text + ")";
+          return e;
+        }
+        const Expression b = value(i.operands[1]);
+        e.reads.insert(b.reads.begin(), b.reads.end());
+        const std::string joined = "vec<" + std::string(at_.is_varying(i.result) ? "" : "U") +
+                                   types_.name(module_.type(i.type).element, true) + ", " +
+                                   std::to_string(size + module_.type_of(i.operands[1]).count) + ">";
+        e.text = "swizzle<" + picks + ">(" + joined + "(" + a.text + ", " + b.text + "))";
+        return e;
+      }());
+    case spv::OpSelect:
+      return define(i, select(i));
+    case spv::OpCopyObject:
+      return define(i, value(i.operands[0]));
+    case spv::OpUndef:
+      return define(i, Expression{type_of(i.result) + "{}", 1, {}});
+    case spv::OpArrayLength: {
+      const Place p = place(i.operands[0]);
+      const std::uint32_t member = i.operands[1];
+      const Layout layout(module_, true);
+      const Id array = module_.type(p.type).members[member];
+      Expression e;
+      e.precedence = 1;
+      e.text = "array_length(" + p.base.text + ", " + std::to_string(layout.member_offset(p.type, member)) + ", " +
+               std::to_string(layout.array_stride(array)) + ")";
+      return define(i, e);
+    }
+    case spv::OpMemoryBarrier:
+      return;  // lanes run in step
+    default:
+      if (i.op >= spv::OpAtomicLoad && i.op <= spv::OpAtomicXor) return atomic(i);
+      refuse(i, "SPIR-V instruction " + op_name(i.op), "write it in other terms");
+  }
+}
+
+}  // namespace twinshade::spirv

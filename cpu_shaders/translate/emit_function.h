@@ -1,0 +1,165 @@
+// Writes one instance of a function. emit_expression.cpp has values, emit_place.cpp memory, emit_statement.cpp control
+// flow, emit_loop.cpp loops and switches.
+#pragma once
+
+#include "cpu_shaders/translate/emit_types.h"
+#include "cpu_shaders/translate/instances.h"
+#include "cpu_shaders/translate/interface.h"
+#include "cpu_shaders/translate/regions.h"
+
+namespace twinshade::spirv {
+
+// What all functions of a shader share.
+struct Emission {
+  const Program& program;
+  const Instances& instances;
+  const Interface& interface;
+  const SourceLines& lines;
+  TypeNames& types;
+  NameTable& names;
+  bool readable = false;
+  std::map<std::pair<Id, Id>, std::string>
+      tables;                     // constant tables by (function, variable) and of private constants (0, variable)
+  std::string no_float64_reason;  // set by the first bit cast
+  Writer out;
+};
+
+struct Expression {
+  std::string text;
+  int precedence =
+      0;  // C++'s: 1 postfix, 3 unary, 5 * /, 6 + -, 7 shifts, 9 < >, 10 ==, 11 &, 12 ^, 13 |, 14 &&, 15 ||
+  std::set<Id> reads;  // variables whose change would change it
+};
+
+// Stands for the contents of all buffers in Expression::reads.
+inline constexpr Id kBuffers = ~0u;
+
+class FunctionEmitter {
+ public:
+  FunctionEmitter(Emission& shared, const Instance& instance);
+  void run();
+
+ private:
+  // --- emit_expression.cpp
+  struct Pending {
+    Id id;
+    Expression expression;
+  };
+  Expression value(Id id);            // consumes a pending value
+  std::string text(Id id, int most);  // in parentheses where it binds less tightly than `most`
+  std::string argument(Id id) { return text(id, 17); }
+  void define(const Instruction& i, Expression e, bool statement = false);
+  void materialise(Pending& pending);
+  void flush();                // gives every pending value a name
+  void before_write(Id root);  // ... those that read `root`
+  void instruction(const Instruction& i);
+  bool arithmetic(const Instruction& i);
+  bool texture(const Instruction& i);
+  Expression binary(const Instruction& i, const char* op, int precedence);
+  Expression call_text(const Instruction& i, const std::string& function, const std::vector<Id>& arguments);
+  Expression extended(const Instruction& i);
+  Expression composite(const Instruction& i);
+  Expression extract(const Instruction& i);
+  Expression select(const Instruction& i);
+  void call(const Instruction& i);
+  void atomic(const Instruction& i);
+  void no_float64(const Instruction& i, const std::string& what);
+  [[noreturn]] void refuse(const Instruction& i, const std::string& what, const std::string& remedy) const;
+  bool is_real(Id value) const { return module_.scalar_kind(module_.value_types.at(value)) == Kind::real; }
+  std::string type_of(Id value) { return types_.name(module_.value_types.at(value), at_.is_varying(value)); }
+
+  // --- emit_place.cpp
+  struct Step {
+    enum class Kind { member, constant, uniform_index, varying_index } kind;
+    std::string text;
+    Id container;  // type that is stepped into
+    std::uint32_t index = 0;
+    Id index_value = 0;
+  };
+  struct Place {
+    Id root = 0;
+    Expression base;
+    std::vector<Step> steps;
+    Id type = 0;
+    const Global* buffer = nullptr;  // memory is read and written where it is used
+  };
+  Place place(Id pointer);
+  Expression load(const Place& p);
+  bool holds_structure(Id type) const;
+  std::string step_text(const std::string& base, const Step& s);
+  void store(const Instruction& i);
+  void store_to(const Instruction& i, const Place& p, const std::string& value);
+  std::string nested_store(const std::string& base, const Place& p, std::size_t first, const std::string& mask,
+                           bool masked, const std::string& value, int depth);
+  struct Offset {
+    std::uint32_t constant = 0;
+    std::string dynamic;
+    bool varying = false;
+    Id type = 0;
+    MatrixLayout matrix;
+    std::set<Id> reads;
+    std::string text(std::uint32_t more = 0) const;
+  };
+  Offset offset_of(const Place& p);
+  std::string load_memory(const std::string& buffer, const Offset& at, Id type, std::uint32_t more,
+                          const MatrixLayout& matrix, bool varying);
+  void store_memory(const std::string& buffer, const Offset& at, Id type, std::uint32_t more,
+                    const MatrixLayout& matrix, const std::string& value);
+  std::string variable_name(Id variable);
+  std::string declare(Id variable, const std::string& wanted);
+
+  // --- emit_statement.cpp
+  struct Mask {
+    std::string name;
+    const Statement* construct;  // null: the function's
+    bool iteration = false;      // lanes of one iteration, as against those still in the loop
+    int uniform_depth = 0;       // uniform branches and loops entered since
+  };
+  void list(const List& statements, const Statement* owner, std::size_t first = 0);
+  void declare_before(const Statement& s);
+  void code(const Statement& s);
+  void choice(const Statement& s);
+  void masked_choice(const Statement& s);
+  void leave(const Statement& s);
+  void give_back(const Statement& s);
+  bool skip_rest(const Statement& s, const Statement* owner);
+  void position(std::uint32_t file, int line);
+  void statement(const std::string& text) { out_.line(text); }
+  std::string mask() const { return masks_.empty() ? "" : masks_.back().name; }
+  std::string mask_or_all() const { return masks_.empty() ? "B(true)" : masks_.back().name; }
+  std::string narrowed(const std::string& condition, int precedence) const;  // mask & condition
+  std::string new_mask() { return names_.declare("mask" + std::to_string(++mask_count_)); }
+  void scope(const List& statements, const Statement* owner);
+  bool departs(const Statement& s) const;  // some lanes leave s for somewhere outside it, others stay
+  bool discards(const Statement& s) const;
+  std::string signature() const;
+
+  // --- emit_loop.cpp
+  void loop(const Statement& s);
+  void cases(const Statement& s);
+  void masked_cases(const Statement& s);
+  std::string loop_condition(const Statement& s, Id condition, bool inverted, const std::string& own_mask);
+
+  Emission& shared_;
+  const Instance& at_;
+  const FunctionInfo& info_;
+  const Program& program_;
+  const Module& module_;
+  TypeNames& types_;
+  NameTable& names_;
+  Writer& out_;
+  Regions regions_;
+  std::map<Id, Expression> values_;
+  std::vector<Pending> pending_;
+  std::map<Id, std::string> variables_;
+  std::map<Id, Id> argument_values_;  // argument temporaries
+  std::vector<Mask> masks_;
+  std::string result_;  // variable for the value of divergent returns
+  std::string for_init_;
+  const Instruction* for_init_store_ = nullptr;
+  int mask_count_ = 0, temporary_count_ = 0;
+  std::string last_file_;
+  int last_line_ = 0;
+};
+
+}  // namespace twinshade::spirv

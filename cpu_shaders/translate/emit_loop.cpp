@@ -1,0 +1,242 @@
+// Loops and switches. A loop that lanes leave at different times has a mask of the lanes still in it and runs while
+// there are any; one in which some lanes skip to the next iteration has, inside, a mask of the lanes still in this
+// iteration.
+#include <algorithm>
+
+#include "cpu_shaders/translate/emit_function.h"
+
+namespace twinshade::spirv {
+namespace {
+
+// The test at the head of a loop: a choice of which one side leaves the loop and the other is empty.
+const Statement* head_test(const Statement& s, std::size_t at) {
+  if (at >= s.body.size() || s.body[at]->shape != Shape::choice) return nullptr;
+  const Statement& c = *s.body[at];
+  const List& leaving = c.then_list.empty() ? c.else_list : c.then_list;
+  if (!(c.then_list.empty() || c.else_list.empty()) || leaving.size() != 1) return nullptr;
+  return leaving[0]->shape == Shape::leave_loop && leaving[0]->target == &s ? &c : nullptr;
+}
+
+std::string trimmed(const std::string& line) { return line.substr(line.find_first_not_of(' ')); }
+
+// Lines that can stand in the head of a `for`, joined by commas; false if they cannot.
+bool as_increment(const std::vector<std::string>& lines, std::string& increment) {
+  std::string text;
+  for (const std::string& line : lines) {
+    if (line.rfind("#line", 0) == 0 || trimmed(line).rfind("//", 0) == 0) continue;
+    text += (text.empty() ? "" : " ") + trimmed(line);
+  }
+  if (text.size() > 100) return false;
+  for (const char* word : {"const ", "{", "if (", "for (", "while ("})
+    if (text.find(word) != std::string::npos) return false;
+  if (!text.empty() && text.back() == ';') text.pop_back();
+  for (std::size_t at = text.find("; "); at != std::string::npos; at = text.find("; ")) text.replace(at, 2, ", ");
+  increment = text;
+  return true;
+}
+
+}  // namespace
+
+// What keeps the loop going; advances the loop's mask where lanes may differ.
+std::string FunctionEmitter::loop_condition(const Statement& s, Id condition, bool inverted,
+                                            const std::string& own_mask) {
+  bool may_discard = false;
+  for_each_statement(s.body, [&](const Statement& inner) { may_discard |= discards(inner); });
+  std::string test;
+  bool varying = false;
+  if (condition != 0) {
+    const Expression c = value(condition);
+    varying = at_.is_varying(condition);
+    test = inverted ? (c.precedence > 1 ? "!(" + c.text + ")" : "!" + c.text) : c.text;
+    if (varying) {
+      test = own_mask + " &= " + test;
+      return may_discard ? "any((" + test + ") & kept)" : "any(" + test + ")";
+    }
+    if (!own_mask.empty() || may_discard) {
+      if (!inverted && c.precedence > 10) test = "(" + test + ")";
+      test += " && ";
+    }
+  }
+  if (!own_mask.empty()) return test + "any(" + own_mask + (may_discard ? " & kept)" : ")");
+  return may_discard ? test + "any(kept)" : test;
+}
+
+void FunctionEmitter::loop(const Statement& s) {
+  const bool masked = at_.is_masked(s);
+  std::string init;
+  init.swap(for_init_);
+  position(s.file, s.line);
+  names_.open();
+  std::string own;
+  if (masked) {
+    own = new_mask();
+    out_.line("B " + own + " = " + mask_or_all() + ";");
+    masks_.push_back({own, &s, false, 0});
+  } else {
+    for (Mask& m : masks_) ++m.uniform_depth;
+  }
+
+  // Everything is written aside first: the form of the loop depends on what fits into its head.
+  names_.open();
+  out_.indent();
+  std::size_t mark = out_.mark();
+  const Statement* test = head_test(s, 0);
+  std::size_t rest = 1;
+  if (test == nullptr && !s.body.empty() && s.body[0]->shape == Shape::code) {
+    test = head_test(s, 1);
+    rest = 2;
+  }
+  std::string condition;
+  bool has_condition = test != nullptr || s.back_condition != 0;
+  std::vector<std::string> head;
+  if (test != nullptr) {
+    if (rest == 2) {
+      declare_before(*s.body[0]);
+      code(*s.body[0]);
+    }
+    const Id tested = test->condition;
+    const bool inverted = test->else_list.empty();
+    condition = loop_condition(s, tested, inverted, own);
+    flush();
+    head = out_.take(mark);
+  }
+  std::string iteration;
+  if (at_.waits_at_next.count(s.id)) {
+    iteration = new_mask();
+    out_.line("B " + iteration + " = " + own + ";");
+    masks_.push_back({iteration, &s, true, 0});
+  }
+  list(s.body, &s, test == nullptr ? 0 : rest);
+  if (!iteration.empty()) masks_.pop_back();
+  flush();
+  const std::vector<std::string> body = out_.take(mark);
+  names_.close();
+
+  names_.open();
+  list(s.continuing, &s);
+  std::string back;
+  if (s.back_condition != 0) back = loop_condition(s, s.back_condition, s.back_inverted, own);
+  flush();
+  const std::vector<std::string> continuing = out_.take(mark);
+  last_line_ = 0;  // what was written last may stand in the head, above the body
+  names_.close();
+  if (!has_condition) {
+    condition = loop_condition(s, 0, false, own);
+    has_condition = !condition.empty();
+  }
+  out_.outdent();
+
+  std::string increment;
+  const bool simple = as_increment(continuing, increment);
+  const std::string open_for = "for (" + init + ";";
+  if (s.back_condition != 0 && test == nullptr && simple && increment.empty()) {
+    if (!init.empty()) out_.line(init + ";");
+    out_.line("do {");
+    out_.append(body);
+    out_.line("} while (" + back + ");");
+  } else if (simple && s.back_condition == 0 && head.empty()) {
+    if (init.empty() && increment.empty() && has_condition)
+      out_.line("while (" + condition + ") {");
+    else
+      out_.line(open_for + (condition.empty() ? "" : " " + condition) + ";" +
+                (increment.empty() ? "" : " " + increment) + ") {");
+    out_.append(body);
+    out_.line("}");
+  } else {
+    // Something does not fit into the head: the end of each iteration moves to the beginning of the next.
+    const std::string again = names_.declare("again");
+    if (!init.empty()) out_.line(init + ";");
+    out_.open("for (bool " + again + " = false;; " + again + " = true) {");
+    if (!continuing.empty() || s.back_condition != 0) {
+      out_.line("if (" + again + ") {");
+      out_.append(continuing);
+      if (s.back_condition != 0) out_.line("  if (!(" + back + ")) break;");
+      out_.line("}");
+    }
+    out_.append(head);
+    if (!condition.empty()) out_.line("if (!(" + condition + ")) break;");
+    out_.append(body);
+    out_.close("}");
+  }
+
+  if (masked) {
+    masks_.pop_back();
+  } else {
+    for (Mask& m : masks_) --m.uniform_depth;
+  }
+  names_.close();
+}
+
+void FunctionEmitter::cases(const Statement& s) {
+  if (at_.is_masked(s)) return masked_cases(s);
+  const Expression selector = value(s.condition);
+  flush();
+  position(s.file, s.line);
+  for (Mask& m : masks_) ++m.uniform_depth;
+  out_.open("switch ((" + selector.text + ").value()) {");
+  const bool is_signed = module_.type_of(s.condition).kind == Kind::integer;
+  for (const Case& c : s.cases) {
+    for (std::uint32_t v : c.values)
+      out_.line("case " +
+                (is_signed ? (v == 0x80000000u ? std::string("-2147483647 - 1")
+                                               : std::to_string(static_cast<std::int32_t>(v)))
+                           : std::to_string(v) + "u") +
+                ":");
+    if (c.is_default) out_.line("default:");
+    out_.line("{");
+    scope(c.body, &s);
+    const bool ends =
+        !c.body.empty() && (c.body.back()->shape == Shape::next_iteration || c.body.back()->shape == Shape::give_back);
+    out_.line(c.falls_through ? "}" : ends ? "}" : "} break;");
+    if (c.falls_through) out_.line("[[fallthrough]];");
+  }
+  out_.close("}");
+  for (Mask& m : masks_) --m.uniform_depth;
+}
+
+// Case by case, each under the lanes that its values select and those that fall through from the case before.
+void FunctionEmitter::masked_cases(const Statement& s) {
+  Expression selector = value(s.condition);
+  flush();
+  position(s.file, s.line);
+  const bool is_signed = module_.type_of(s.condition).kind == Kind::integer;
+  const std::string name = names_.declare("selector");
+  out_.line("const " + types_.name(module_.value_types.at(s.condition), at_.is_varying(s.condition)) + " " + name +
+            " = " + selector.text + ";");
+  const auto match = [&](const std::vector<std::uint32_t>& values) {
+    std::string text;
+    for (std::uint32_t v : values) {
+      const std::string literal = is_signed ? "UI(" +
+                                                  (v == 0x80000000u ? std::string("-2147483647 - 1")
+                                                                    : std::to_string(static_cast<std::int32_t>(v))) +
+                                                  ")"
+                                            : "UU(" + std::to_string(v) + "u)";
+      text += (text.empty() ? "" : " || ") + name + " == " + literal;
+    }
+    return text;
+  };
+  std::vector<std::uint32_t> all;
+  for (const Case& c : s.cases) all.insert(all.end(), c.values.begin(), c.values.end());
+  std::string falling;  // mask of the lanes that fall through
+  for (const Case& c : s.cases) {
+    // default takes what no case names, also if it has case values beside it.
+    std::vector<std::uint32_t> others;
+    for (std::uint32_t v : all)
+      if (std::find(c.values.begin(), c.values.end(), v) == c.values.end()) others.push_back(v);
+    std::string chosen = !c.is_default    ? "(" + match(c.values) + ")"
+                         : others.empty() ? "B(true)"
+                                          : "!(" + match(others) + ")";
+    const std::string own = new_mask();
+    std::string text = masks_.empty() ? chosen : mask() + " & " + chosen;
+    if (!falling.empty()) text = falling + " | (" + text + ")";
+    out_.line("B " + own + " = " + (at_.is_varying(s.condition) || !masks_.empty() ? text : "B(" + text + ")") + ";");
+    out_.line("if (any(" + own + ")) {");
+    masks_.push_back({own, &s, false, 0});
+    scope(c.body, &s);
+    masks_.pop_back();
+    out_.line("}");
+    falling = c.falls_through ? own : "";
+  }
+}
+
+}  // namespace twinshade::spirv

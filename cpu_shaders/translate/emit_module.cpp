@@ -1,0 +1,449 @@
+#include "cpu_shaders/translate/emit_module.h"
+
+#include <algorithm>
+#include <regex>
+
+#include "cpu_shaders/translate/emit_function.h"
+
+namespace twinshade::spirv {
+namespace {
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c == '\n' ? ' ' : c;
+  }
+  return result + "\"";
+}
+
+const char* boolean(bool b) { return b ? "true" : "false"; }
+
+std::string scalar_name(Scalar s) {
+  switch (s) {
+    case Scalar::i32:
+      return "Scalar::i32";
+    case Scalar::u32:
+      return "Scalar::u32";
+    case Scalar::boolean:
+      return "Scalar::boolean";
+    default:
+      return "Scalar::f32";
+  }
+}
+
+std::string kind_name(ResourceKind k) {
+  switch (k) {
+    case ResourceKind::uniform_block:
+      return "ResourceKind::uniform_block";
+    case ResourceKind::storage_buffer:
+      return "ResourceKind::storage_buffer";
+    case ResourceKind::sampler_2d_array:
+      return "ResourceKind::sampler_2d_array";
+    case ResourceKind::sampler_cube:
+      return "ResourceKind::sampler_cube";
+    default:
+      return "ResourceKind::sampler_2d";
+  }
+}
+
+class ModuleEmitter {
+ public:
+  ModuleEmitter(const Program& program, Interface& interface, const SourceLines& lines, NameTable& names,
+                const ShaderSource& source, bool readable, Translation& translation)
+      : program_(program),
+        module_(program.module),
+        interface_(interface),
+        lines_(lines),
+        names_(names),
+        source_(source),
+        readable_(readable),
+        translation_(translation),
+        instances_(analyse_uniformity(program)),
+        types_(module_, names),
+        shared_{program, instances_, interface, lines, types_, names, readable, {}, "", {}} {}
+
+  void run() {
+    shared_.out.indent();
+    name_functions();
+    find_varying_indices();
+    const std::string tables = aside([&] { constant_tables(); });
+    const std::string members = aside([&] { write_members(); });
+    const std::string functions = aside([&] { write_functions(); });
+    interface_.reflection.no_float64_reason = shared_.no_float64_reason;
+    translation_.reflection = interface_.reflection;
+    const std::string types = aside([&] { types_.write_declarations(shared_.out); });
+    translation_.cpp = head() + types + tables + members + functions + tail();
+  }
+
+ private:
+  template <class Write>
+  std::string aside(Write write) {
+    const std::size_t mark = shared_.out.mark();
+    write();
+    std::string text;
+    for (const std::string& line : shared_.out.take(mark)) text += line + '\n';
+    return text;
+  }
+
+  // In the order of the GLSL. Instances beyond the first differ in which arguments vary.
+  void name_functions() {
+    for (Instance* i : instances_.callees_first)
+      i->name = i->info->function->id == module_.entry ? "main" : names_.declare(i->info->function->name);
+  }
+
+  // Uniform arrays that some function indexes by a varying value, to be kept as tables.
+  void find_varying_indices() {
+    for (const Instance* at : instances_.callees_first)
+      for_each_instruction(at->info->body.list, [&](const Instruction& i) {
+        if ((i.op == spv::OpAccessChain || i.op == spv::OpInBoundsAccessChain) && at->is_varying(i.operands[1]))
+          indexed_by_lanes_.insert(i.operands[0]);
+      });
+  }
+
+  bool is_table(Id array) const {
+    const Type& t = module_.type(array);
+    if (t.kind != Kind::array) return false;
+    const Kind element = module_.type(t.element).kind;
+    const Kind scalar = module_.scalar_kind(t.element);
+    return (element == Kind::vector || element == scalar) && scalar != Kind::boolean && element != Kind::structure;
+  }
+
+  std::string table_type(Id array) {
+    const Type& t = module_.type(array);
+    return "table<" + types_.name(t.element, false) + ", " + std::to_string(t.count) + ">";
+  }
+
+  // The author's name of a const array: SPIR-V has lost it, the line that indexes it has not.
+  std::string table_name(const FunctionInfo& info, Id variable) const {
+    static const std::regex declared(R"(\bconst\s+\w+\s*(?:\[[^\]]*\]\s*)*(\w+)\s*[\[=])");
+    std::set<std::string> constants;
+    std::smatch match;
+    for (std::string text = source_.text; std::regex_search(text, match, declared); text = match.suffix())
+      constants.insert(match[1]);
+    std::set<std::string> candidates;
+    for_each_instruction(info.body.list, [&](const Instruction& i) {
+      if (i.op != spv::OpStore || i.operands[0] != variable) return;
+      const Position p = module_.position(i);
+      static const std::regex indexed(R"((\w+)\s*\[)");
+      for (std::string text = lines_.text(p.file, p.line); std::regex_search(text, match, indexed);
+           text = match.suffix())
+        if (constants.count(match[1])) candidates.insert(match[1]);
+    });
+    return candidates.size() == 1 ? *candidates.begin() : "constants";
+  }
+
+  void constant_tables() {
+    std::map<Id, std::string> by_constant;
+    for (Id function : program_.callees_first) {
+      const FunctionInfo& info = program_.info(function);
+      for (const auto& [variable, constant] : info.constant_tables) {
+        std::string& name = by_constant[constant];
+        if (name.empty()) {
+          name = names_.declare(table_name(info, variable));
+          const Id type = module_.constants.at(constant).type;
+          if (is_table(type)) {
+            shared_.out.line("static constexpr " + table_type(type) + " " + name + "{" + types_.constant(constant) +
+                             "};");
+          } else {
+            shared_.out.line("static constexpr " + types_.name(type, false) + " " + name + " = " +
+                             types_.constant(constant) + ";");
+          }
+        }
+        shared_.tables[{function, variable}] = name;
+      }
+    }
+  }
+
+  void write_members() {
+    Writer& out = shared_.out;
+    out.line("");
+    for (Id id : module_.globals) {
+      const auto found = interface_.globals.find(id);
+      if (found == interface_.globals.end() || !found->second.mentioned) continue;
+      const Global& g = found->second;
+      const Type& t = module_.type(g.type);
+      switch (g.role) {
+        case Role::input:
+          write_input(g);
+          break;
+        case Role::output:
+        case Role::frag_depth:
+          out.line(types_.name(g.type, true) + " " + g.name + ";");
+          reset_ += "    " + g.name + " = " + types_.name(g.type, true) + "{};\n";
+          break;
+        case Role::global: {
+          const std::string type = types_.name(g.type, instances_.varying_globals.count(id) != 0);
+          const Id initializer = module_.variables.at(id).initializer;
+          out.line(type + " " + g.name + ";");
+          reset_ += "    " + g.name + " = " + (initializer != 0 ? types_.constant(initializer) : type + "{}") + ";\n";
+          break;
+        }
+        case Role::uniform:
+          if (indexed_by_lanes_.count(id) && is_table(g.type)) {
+            out.line(table_type(g.type) + " " + g.name + "{" + types_.name(g.type, false) + "{}};");
+          } else {
+            out.line(types_.name(g.type, false) + " " + g.name + ";");
+          }
+          break;
+        case Role::sampler:
+          out.line(types_.name(g.type, false) + " " + g.name + ";");
+          break;
+        case Role::buffer:
+          out.line("BufferView " + g.name + ";");
+          break;
+        case Role::builtin:
+          break;
+      }
+      if (g.role == Role::output)
+        outputs_ += "    output(" + std::to_string(g.first_component) + ", " + g.name + ");\n";
+      if (g.role == Role::frag_depth) outputs_ += "    frag_depth(" + g.name + ");\n";
+      (void)t;
+    }
+    write_constructor();
+    out.line("");
+    out.open("TWINSHADE_INLINE void run() {");
+    const std::string main = "    main();\n";
+    for (const std::string* block : std::initializer_list<const std::string*>{&reset_, &main, &outputs_}) {
+      std::string rest = *block;
+      for (std::size_t end = rest.find('\n'); end != std::string::npos; end = rest.find('\n')) {
+        out.line(rest.substr(rest.find_first_not_of(' '), end - rest.find_first_not_of(' ')));
+        rest = rest.substr(end + 1);
+      }
+    }
+    out.close("}");
+  }
+
+  void write_input(const Global& g) {
+    const std::string type = types_.name(g.type, true);
+    shared_.out.line(type + " " + g.name + "() const { return this->template input<" + type + ">(" +
+                     std::to_string(g.first_component) + "); }");
+    const Type& t = module_.type(g.type);
+    if (t.kind != Kind::array) return;
+    const std::string element = types_.name(t.element, true);
+    shared_.out.line(element + " " + g.name + "(UI i) const { return this->template input<" + element + ">(" +
+                     std::to_string(g.first_component) + " + " + std::to_string(module_.component_count(t.element)) +
+                     " * std::min<std::uint32_t>(static_cast<std::uint32_t>(i.value()), " +
+                     std::to_string(t.count - 1) + ")); }");
+  }
+
+  // Uniforms and small uniform blocks are read once, before all invocations.
+  void write_constructor() {
+    Writer& out = shared_.out;
+    out.line("");
+    out.open(
+        "TWINSHADE_INLINE Shader(const ShaderData& shader_data, const ShadeCall& shade_call) : Base(shader_data, "
+        "shade_call) {");
+    bool has_memory = false;
+    for (Id id : module_.globals) {
+      const auto found = interface_.globals.find(id);
+      if (found == interface_.globals.end() || !found->second.mentioned) continue;
+      const Global& g = found->second;
+      if (g.role == Role::sampler) {
+        const Type& t = module_.type(g.type);
+        const Id element = t.kind == Kind::array ? t.element : g.type;
+        const std::string type = types_.name(element, false);
+        const std::string function = type == "samplerCube"      ? "texture_cube"
+                                     : type == "sampler2DArray" ? "texture_2d_array"
+                                                                : "texture_2d";
+        if (t.kind != Kind::array) out.line(g.name + " = this->" + function + "(" + std::to_string(g.slot) + ");");
+        for (std::uint32_t k = 0; t.kind == Kind::array && k < t.count; ++k)
+          out.line(g.name + "[" + std::to_string(k) + "] = this->" + function + "(" + std::to_string(g.slot + k) +
+                   ");");
+      } else if (g.role == Role::buffer) {
+        out.line(g.name + " = this->buffer(" + std::to_string(g.slot) + ");");
+      } else if (g.role == Role::uniform) {
+        std::string memory = "memory";
+        if (g.in_block)
+          memory = "this->buffer(" + std::to_string(g.slot) + ")";
+        else if (!has_memory)
+          out.line("const BufferView memory = this->uniforms(" + std::to_string(interface_.reflection.uniform_bytes) +
+                   ");"),
+              has_memory = true;
+        if (indexed_by_lanes_.count(id) && is_table(g.type)) {
+          const std::string local = g.name + "_values";
+          out.open("{");
+          out.line(types_.name(g.type, false) + " " + local + ";");
+          load_uniform(Layout(module_, g.in_block), memory, g.type, local, std::to_string(g.offset), {}, 0);
+          out.line(g.name + " = " + table_type(g.type) + "(" + local + ");");
+          out.close("}");
+        } else {
+          load_uniform(Layout(module_, g.in_block), memory, g.type, g.name, std::to_string(g.offset), {}, 0);
+        }
+      }
+    }
+    out.close("}");
+  }
+
+  void load_uniform(const Layout& layout, const std::string& memory, Id id, const std::string& target,
+                    const std::string& offset, const MatrixLayout& matrix, int depth) {
+    const Type& t = module_.type(id);
+    Writer& out = shared_.out;
+    const auto plus = [&](std::uint32_t more) { return more == 0 ? offset : offset + " + " + std::to_string(more); };
+    switch (t.kind) {
+      case Kind::structure:
+        for (std::uint32_t k = 0; k < t.members.size(); ++k)
+          load_uniform(layout, memory, t.members[k], target + "." + types_.member(id, k),
+                       plus(layout.member_offset(id, k)), layout.member_matrix(id, k), depth);
+        return;
+      case Kind::array: {
+        const std::string i = depth == 0 ? "i" : "i" + std::to_string(depth);
+        out.open("for (int " + i + " = 0; " + i + " < " + std::to_string(t.count) + "; ++" + i + ") {");
+        load_uniform(layout, memory, t.element, target + "[" + i + "]",
+                     offset + " + " + std::to_string(layout.array_stride(id)) + " * " + i, matrix, depth + 1);
+        out.close("}");
+        return;
+      }
+      case Kind::matrix:
+        for (std::uint32_t c = 0; c < t.count; ++c) {
+          const std::string column = target + "[" + std::to_string(c) + "]";
+          if (!matrix.row_major) {
+            load_uniform(layout, memory, t.element, column, plus(c * matrix.stride), matrix, depth);
+            continue;
+          }
+          const Type& vector = module_.type(t.element);
+          for (std::uint32_t r = 0; r < vector.count; ++r)
+            load_uniform(layout, memory, vector.element, column + "[" + std::to_string(r) + "]",
+                         plus(4 * c + r * matrix.stride), {}, depth);
+        }
+        return;
+      default:
+        out.line(target + " = load<" + types_.name(id, false) + ">(" + memory + ", UI(" + offset + "));");
+    }
+  }
+
+  void write_functions() {
+    std::vector<const Instance*> order(instances_.callees_first.begin(), instances_.callees_first.end());
+    std::stable_sort(order.begin(), order.end(), [&](const Instance* a, const Instance* b) {
+      const auto key = [&](const Instance* i) { return std::pair(i->info->function->id == module_.entry, 0); };
+      return key(a) < key(b);
+    });
+    for (const Instance* i : order) {
+      shared_.out.line("");
+      FunctionEmitter(shared_, *i).run();
+    }
+  }
+
+  std::string head() const {
+    std::string text = "// " + source_.name + ": translated from " +
+                       (source_.files.empty() ? source_.name : source_.files[0]) +
+                       " by twinshade. docs/generated-code.md says how to read it.\n"
+                       "#include \"cpu_shaders/runtime/runtime.h\"\n\n"
+                       "#pragma GCC diagnostic ignored \"-Wunused-parameter\"\n"
+                       "#pragma GCC diagnostic ignored \"-Wunused-variable\"\n"
+                       "#pragma GCC diagnostic ignored \"-Wunused-but-set-variable\"\n"
+                       "#pragma GCC diagnostic ignored \"-Wunused-but-set-parameter\"\n"
+                       "#pragma GCC diagnostic ignored \"-Wunused-function\"\n\n"
+                       "namespace twinshade {\ninline namespace TWINSHADE_ISA_NAMESPACE {\nnamespace {\n\n"
+                       "template <class N>\nstruct Shader : ShaderBase<N> {\n  using Base = ShaderBase<N>;\n";
+    for (const char* name : {"kept", "live", "frag_coord", "front_facing", "primitive_id", "frag_depth", "output"})
+      text += std::string("  using Base::") + name + ";\n";
+    return text;
+  }
+
+  std::string tail() const {
+    const std::string& id = translation_.identifier;
+    const Reflection& r = interface_.reflection;
+    std::string t = "};\n\n";
+    const auto table = [&](const std::string& type, const std::string& name, const std::vector<std::string>& rows) {
+      if (rows.empty()) return;
+      t += "constexpr " + type + " " + name + "[] = {\n";
+      for (const std::string& row : rows) t += "    {" + row + "},\n";
+      t += "};\n";
+    };
+    const auto variables = [](const std::vector<ReflectedVariable>& all) {
+      std::vector<std::string> rows;
+      for (const auto& v : all)
+        rows.push_back(quoted(v.name) + ", " + scalar_name(v.scalar) + ", " + std::to_string(v.columns) + ", " +
+                       std::to_string(v.rows) + ", " + std::to_string(v.array_length) + ", " + boolean(v.flat) + ", " +
+                       boolean(v.noperspective) + ", " + std::to_string(v.location) + ", " +
+                       std::to_string(v.first_component));
+      return rows;
+    };
+    table("ShaderVariable", "kInputs", variables(r.inputs));
+    table("ShaderVariable", "kOutputs", variables(r.outputs));
+    std::vector<std::string> uniforms, resources;
+    for (const auto& u : r.uniforms)
+      uniforms.push_back(quoted(u.name) + ", " + scalar_name(u.scalar) + ", " + std::to_string(u.columns) + ", " +
+                         std::to_string(u.rows) + ", " + std::to_string(u.array_length) + ", " +
+                         std::to_string(u.offset) + ", " + std::to_string(u.array_stride) + ", " +
+                         std::to_string(u.matrix_stride));
+    for (const auto& x : r.resources)
+      resources.push_back(quoted(x.name) + ", " + kind_name(x.kind) + ", " + std::to_string(x.slot) + ", " +
+                          std::to_string(x.minimum_size) + ", " + boolean(x.read_only));
+    table("ShaderUniform", "kUniforms", uniforms);
+    table("ShaderResource", "kResources", resources);
+
+    const std::string scalar = r.uses_derivatives ? "Quad" : "Scalar";
+    t += "\nconstexpr ShaderEntry kEntries[] = {\n";
+    const auto entry = [&](int bit, const std::string& number, const std::string& policy) {
+      t += "#if TWINSHADE_NUMBERS & " + std::to_string(bit) + "\n    {Isa(TWINSHADE_ISA_NUMBER), Number::" + number +
+           ", shade_all<Shader, " + policy + ">},\n#endif\n";
+    };
+    entry(1, "lanes4", "Lanes<4>");
+    entry(2, "lanes8", "Lanes<8>");
+    entry(4, "lanes16", "Lanes<16>");
+    entry(8, "scalar", scalar + "32");
+    if (r.no_float64_reason.empty()) entry(16, "float64", scalar + "64");
+    t += "    {Isa(TWINSHADE_ISA_NUMBER), Number::scalar, nullptr}};  // the end, not counted\n";
+    t += "constexpr std::uint32_t kEntryCount = sizeof kEntries / sizeof *kEntries - 1;\n\n";
+
+    const auto array = [](bool empty, const char* name) {
+      return empty ? std::string("nullptr, 0") : std::string(name) + ", sizeof " + name + " / sizeof *" + name;
+    };
+    const auto module = [&](const std::string& entries) {
+      std::string m =
+          "    kAbiVersion,\n    " + quoted(source_.name) + ",\n    " + quoted(source_hash(source_)) + ",\n";
+      m += "    " + array(r.inputs.empty(), "kInputs") + ", " + std::to_string(r.input_components) + ",\n";
+      m += "    " + array(r.outputs.empty(), "kOutputs") + ", " + std::to_string(r.output_components) + ",\n";
+      m += "    " + array(r.uniforms.empty(), "kUniforms") + ", " + std::to_string(r.uniform_bytes) + ",\n";
+      m += "    " + array(r.resources.empty(), "kResources") + ", " + std::to_string(r.texture_count) + ", " +
+           std::to_string(r.buffer_count) + ",\n";
+      m += "    /*discards*/ " + std::string(boolean(r.discards)) + ", /*writes_depth*/ " + boolean(r.writes_depth) +
+           ", /*has_side_effects*/ " + boolean(r.has_side_effects) + ", /*uses_derivatives*/ " +
+           boolean(r.uses_derivatives) + ",\n    /*uses_frag_coord*/ " + boolean(r.uses_frag_coord) +
+           ", /*uses_front_facing*/ " + boolean(r.uses_front_facing) + ", /*uses_primitive_id*/ " +
+           boolean(r.uses_primitive_id) + ",\n";
+      m += "    " + (r.no_float64_reason.empty() ? std::string("nullptr") : quoted(r.no_float64_reason)) + ",\n    " +
+           entries + "};\n";
+      return m;
+    };
+    t += "}  // namespace\n}  // namespace TWINSHADE_ISA_NAMESPACE\n\n";
+    t += "#if defined(TWINSHADE_SHARED_OBJECT)\n";
+    t += "extern \"C\" __attribute__((visibility(\"default\"))) extern const ShaderModule twinshade_shader_module;\n";
+    t += "const ShaderModule twinshade_shader_module = {\n" + module("kEntries, kEntryCount");
+    t += "#else\n";
+    t += "extern const ShaderEntry* const TWINSHADE_JOIN(twinshade_entries_" + id + "_, TWINSHADE_ISA);\n";
+    t += "extern const std::uint32_t TWINSHADE_JOIN(twinshade_entry_count_" + id + "_, TWINSHADE_ISA);\n";
+    t += "const ShaderEntry* const TWINSHADE_JOIN(twinshade_entries_" + id + "_, TWINSHADE_ISA) = kEntries;\n";
+    t += "const std::uint32_t TWINSHADE_JOIN(twinshade_entry_count_" + id + "_, TWINSHADE_ISA) = kEntryCount;\n";
+    t += "#if TWINSHADE_ISA_NUMBER == 0\n";
+    t += "extern const ShaderModule twinshade_module_" + id + ";\n";
+    t += "const ShaderModule twinshade_module_" + id + " = {\n" + module("nullptr, 0");
+    t += "#endif\n#endif\n\n}  // namespace twinshade\n";
+    return t;
+  }
+
+  const Program& program_;
+  const Module& module_;
+  Interface& interface_;
+  const SourceLines& lines_;
+  NameTable& names_;
+  const ShaderSource& source_;
+  bool readable_;
+  Translation& translation_;
+  Instances instances_;
+  TypeNames types_;
+  Emission shared_;
+  std::set<Id> indexed_by_lanes_;
+  std::string reset_, outputs_;
+};
+
+}  // namespace
+
+void emit_module(const Program& program, Interface& interface, const SourceLines& lines, NameTable& names,
+                 const ShaderSource& source, bool readable, Translation& translation) {
+  ModuleEmitter(program, interface, lines, names, source, readable, translation).run();
+}
+
+}  // namespace twinshade::spirv

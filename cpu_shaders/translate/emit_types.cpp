@@ -1,0 +1,217 @@
+#include "cpu_shaders/translate/emit_types.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "base/error.h"
+
+namespace twinshade::spirv {
+namespace {
+
+std::string scalar_letter(Kind kind) {
+  switch (kind) {
+    case Kind::integer:
+      return "I";
+    case Kind::unsigned_integer:
+      return "U";
+    case Kind::boolean:
+      return "B";
+    default:
+      return "F";
+  }
+}
+
+std::string vector_prefix(Kind kind) {
+  switch (kind) {
+    case Kind::integer:
+      return "ivec";
+    case Kind::unsigned_integer:
+      return "uvec";
+    case Kind::boolean:
+      return "bvec";
+    default:
+      return "vec";
+  }
+}
+
+}  // namespace
+
+std::string float_literal(std::uint32_t bits) {
+  float value;
+  std::memcpy(&value, &bits, sizeof value);
+  if (std::isnan(value)) return "__builtin_nanf(\"\")";
+  if (std::isinf(value)) return value < 0 ? "-__builtin_inff()" : "__builtin_inff()";
+  char text[64];
+  // Halves, tens and the like: decimal digits that are the exact value.
+  std::snprintf(text, sizeof text, "%.4f", static_cast<double>(value));
+  if (std::strtod(text, nullptr) == static_cast<double>(value) && std::fabs(value) < 100000.0f) {
+    std::string decimal = text;
+    while (decimal.back() == '0' && decimal[decimal.size() - 2] != '.') decimal.pop_back();
+    return decimal + "f";
+  }
+  std::snprintf(text, sizeof text, "%a", static_cast<double>(value));
+  return std::string(text) + "f";
+}
+
+std::string TypeNames::name(Id id, bool varying) {
+  const Type& t = module_.type(id);
+  std::string base;
+  switch (t.kind) {
+    case Kind::none:
+      return "void";
+    case Kind::vector:
+      base = vector_prefix(module_.type(t.element).kind) + std::to_string(t.count);
+      break;
+    case Kind::matrix: {
+      const std::uint32_t rows = module_.type(t.element).count;
+      base = "mat" + std::to_string(t.count) + (rows == t.count ? "" : "x" + std::to_string(rows));
+      break;
+    }
+    case Kind::array:
+      return "arr<" + name(t.element, varying) + ", " + std::to_string(t.count) + ">";
+    case Kind::structure:
+      declare_structure(id);
+      return (varying ? "" : "uniform_") + structures_.at(id);
+    case Kind::sampler: {
+      const Type& image = module_.type(t.element);
+      base = image.dimension == spv::DimCube ? "samplerCube" : image.arrayed ? "sampler2DArray" : "sampler2D";
+      aliases_.insert(base);
+      return base;
+    }
+    case Kind::pointer:
+      return name(t.element, varying);
+    default:
+      return (varying ? "" : "U") + scalar_letter(t.kind);
+  }
+  const std::string full = (varying ? "" : "uniform_") + base;
+  aliases_.insert(full);
+  return full;
+}
+
+void TypeNames::declare_structure(Id id) {
+  if (structures_.count(id)) return;
+  const Type& t = module_.type(id);
+  structures_[id] = names_.declare(module_.name(id).empty() ? "Struct" : module_.name(id));
+  NameTable local;
+  for (std::uint32_t k = 0; k < t.members.size(); ++k) {
+    if (module_.type(t.members[k]).kind == Kind::structure) declare_structure(t.members[k]);
+    name(t.members[k], true);  // so that structures in arrays come first
+    const auto found = module_.member_names.find({id, k});
+    members_[{id, k}] =
+        local.declare(found == module_.member_names.end() ? "member" + std::to_string(k) : found->second);
+  }
+  structure_order_.push_back(id);
+}
+
+const std::string& TypeNames::member(Id structure, std::uint32_t index) {
+  declare_structure(structure);
+  return members_.at({structure, index});
+}
+
+std::string TypeNames::constant(Id id) {
+  const Constant& c = module_.constants.at(id);
+  const Type& t = module_.type(c.type);
+  const std::string type = name(c.type, false);
+  switch (t.kind) {
+    case Kind::real:
+      return "UF(" + float_literal(c.bits) + ")";
+    case Kind::integer:
+      if (c.bits == 0x80000000u) return "UI(-2147483647 - 1)";
+      return "UI(" + std::to_string(static_cast<std::int32_t>(c.bits)) + ")";
+    case Kind::unsigned_integer:
+      return "UU(" + std::to_string(c.bits) + "u)";
+    case Kind::boolean:
+      return c.bits != 0 ? "UB(true)" : "UB(false)";
+    default:
+      break;
+  }
+  if (c.components.empty()) return type + "{}";  // OpConstantNull
+  bool same = t.kind == Kind::vector;
+  for (Id component : c.components) same &= component == c.components[0];
+  if (same) return type + "(" + constant(c.components[0]) + ")";
+  std::string list;
+  for (Id component : c.components) list += (list.empty() ? "" : ", ") + constant(component);
+  if (t.kind == Kind::array) return type + "{{" + list + "}}";
+  if (t.kind == Kind::structure) return type + "{" + list + "}";
+  return type + "(" + list + ")";
+}
+
+void TypeNames::write_declarations(Writer& out) const {
+  for (const char* scalar : {"F", "I", "U", "B", "UF", "UI", "UU", "UB"})
+    out.line(std::string("using ") + scalar + " = typename N::" + scalar + ";");
+  for (const std::string& alias : aliases_) {
+    if (alias.rfind("sampler", 0) == 0) {
+      out.line("using " + alias + " = typename N::" + alias + ";");
+      continue;
+    }
+    const bool uniform = alias.rfind("uniform_", 0) == 0;
+    const std::string base = uniform ? alias.substr(8) : alias;
+    const std::size_t digits = base.find_first_of("234");
+    const std::string prefix = base.substr(0, digits), size = base.substr(digits);
+    const std::string scalar = std::string(uniform ? "U" : "") + (prefix == "ivec"   ? "I"
+                                                                  : prefix == "uvec" ? "U"
+                                                                  : prefix == "bvec" ? "B"
+                                                                                     : "F");
+    if (prefix == "mat")
+      out.line("using " + alias + " = mat<" + scalar + ", " + size.substr(0, 1) + ", " + size.substr(size.size() - 1) +
+               ">;");
+    else
+      out.line("using " + alias + " = vec<" + scalar + ", " + size + ">;");
+  }
+  if (!structure_order_.empty()) {
+    out.line("struct Varying {");
+    out.line("  using F = typename N::F; using I = typename N::I; using U = typename N::U; using B = typename N::B;");
+    out.line("};");
+    out.line("struct Uniform {");
+    out.line(
+        "  using F = typename N::UF; using I = typename N::UI; using U = typename N::UU; using B = typename N::UB;");
+    out.line("};");
+  }
+  for (Id id : structure_order_) {
+    const Type& t = module_.type(id);
+    const std::string& own = structures_.at(id);
+    std::string copies, selects;
+    out.line("");
+    out.line("template <class K>");
+    out.open("struct " + own + "_of {");
+    for (std::uint32_t k = 0; k < t.members.size(); ++k) {
+      std::string type, close;
+      Id at = t.members[k];
+      for (; module_.type(at).kind == Kind::array; at = module_.type(at).element) {
+        type += "arr<";
+        close.insert(0, ", " + std::to_string(module_.type(at).count) + ">");
+      }
+      const Type& leaf = module_.type(at);
+      if (leaf.kind == Kind::structure) {
+        type += structures_.at(at) + "_of<K>";
+      } else if (leaf.kind == Kind::matrix) {
+        type += "mat<typename K::F, " + std::to_string(leaf.count) + ", " +
+                std::to_string(module_.type(leaf.element).count) + ">";
+      } else if (leaf.kind == Kind::vector) {
+        type += "vec<typename K::" + scalar_letter(module_.type(leaf.element).kind) + ", " +
+                std::to_string(leaf.count) + ">";
+      } else {
+        type += "typename K::" + scalar_letter(leaf.kind);
+      }
+      const std::string& member = members_.at({id, k});
+      out.line(type + close + " " + member + ";");
+      const std::string comma = k == 0 ? "" : ", ";
+      copies += comma + member;
+      selects += comma + "select(mask, a." + member + ", b." + member + ")";
+    }
+    out.line("template <class V>");
+    out.line("  requires(!std::same_as<K, V>)");
+    out.line("TWINSHADE_INLINE constexpr operator " + own + "_of<V>() const { return {" + copies + "}; }");
+    out.line("friend TWINSHADE_INLINE " + own + "_of select(const B& mask, const " + own + "_of& a, const " + own +
+             "_of& b) {");
+    out.line("  return {" + selects + "};");
+    out.line("}");
+    out.close("};");
+    out.line("using " + own + " = " + own + "_of<Varying>;");
+    out.line("using uniform_" + own + " = " + own + "_of<Uniform>;");
+  }
+}
+
+}  // namespace twinshade::spirv

@@ -1,0 +1,39 @@
+// C++ types and constants for SPIR-V's: F, vec3, uniform_mat4, arr<vec3, 4>, structs.
+#pragma once
+
+#include <map>
+#include <set>
+
+#include "cpu_shaders/translate/names.h"
+#include "cpu_shaders/translate/spirv_module.h"
+#include "cpu_shaders/translate/writer.h"
+
+namespace twinshade::spirv {
+
+class TypeNames {
+ public:
+  TypeNames(const Module& module, NameTable& names) : module_(module), names_(names) {}
+
+  // Remembers what was asked for: write_declarations declares just that.
+  std::string name(Id type, bool varying);
+  const std::string& member(Id structure, std::uint32_t index);
+  // A constant as an expression of uniform type.
+  std::string constant(Id id);
+
+  void write_declarations(Writer& out) const;
+
+ private:
+  void declare_structure(Id type);
+
+  const Module& module_;
+  NameTable& names_;
+  std::set<std::string> aliases_;
+  std::map<Id, std::string> structures_;
+  std::vector<Id> structure_order_;
+  std::map<std::pair<Id, std::uint32_t>, std::string> members_;
+};
+
+// A float literal that reads back as the same bits: short decimals where they are exact, else hexadecimal.
+std::string float_literal(std::uint32_t bits);
+
+}  // namespace twinshade::spirv

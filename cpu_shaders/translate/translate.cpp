@@ -1,0 +1,28 @@
+#include "cpu_shaders/translate/translate.h"
+
+#include <cctype>
+
+#include "cpu_shaders/translate/compile_glsl.h"
+#include "cpu_shaders/translate/emit_module.h"
+
+namespace twinshade {
+
+std::string identifier_from(const std::string& name) {
+  std::string id;
+  for (char c : name) id += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  if (id.empty() || std::isdigit(static_cast<unsigned char>(id[0]))) id.insert(0, "s");
+  return id;
+}
+
+Translation translate(const ShaderSource& source, const TranslateOptions& options) {
+  Translation translation;
+  translation.identifier = options.identifier.empty() ? identifier_from(source.name) : options.identifier;
+  const spirv::Program program = spirv::analyse(spirv::parse(compile_fragment_glsl(source)));
+  const SourceLines lines(source);
+  spirv::NameTable names;
+  spirv::Interface interface = spirv::describe_interface(program, lines, names);
+  spirv::emit_module(program, interface, lines, names, source, options.readable, translation);
+  return translation;
+}
+
+}  // namespace twinshade

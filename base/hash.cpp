@@ -49,6 +49,7 @@ void Sha256::block(const std::uint8_t* bytes) {
 }
 
 void Sha256::add(const void* data, std::size_t count) {
+  if (count == 0) return;  // data may be null
   const auto* bytes = static_cast<const std::uint8_t*>(data);
   std::size_t used = length_ % 64;
   length_ += count;

@@ -41,15 +41,14 @@ std::string glsl_type(const InputLeaf& leaf) {
   return leaf.scalar == Scalar::f32 ? "float" : leaf.scalar == Scalar::i32 ? "int" : "uint";
 }
 
-// Storage buffers of vertex data, shared by the exact fragment shader and the pulling vertex shader.
+// Vertex data, shared by the exact fragment shader and the pulling vertex shader. Buffer textures rather than storage
+// buffers: llvmpipe loads nothing from those in the uncovered pixels of a 2 x 2 quad, which derivatives need.
 std::string vertex_data(std::size_t leaf_count) {
-  return "layout(std430) readonly buffer " + std::string(kVertexBlock) +
-         " { uint twinshade_vertex[]; };\n"
-         "uniform int twinshade_base[" +
+  return "uniform usamplerBuffer " + std::string(kVertexData) + ";\nuniform int " + kBases + "[" +
          number(std::max<std::size_t>(leaf_count, 1)) +
          "];\n"
-         "uint twinshade_bits(uint base, uint vertex, uint components, uint c) {\n"
-         "  return twinshade_vertex[base + vertex * components + c];\n"
+         "uint twinshade_bits(int base, int vertex, int components, int c) {\n"
+         "  return texelFetch(twinshade_vertex_data, base + vertex * components + c).x;\n"
          "}\n";
 }
 
@@ -116,12 +115,10 @@ std::string ShaderGenerator::fill() const {
     text += "  twinshade_PrimitiveID = gl_PrimitiveID;\n";
   if (needs_triangle()) {
     text +=
-        "  uint twinshade_v[3];\n  vec4 twinshade_p[3];\n"
+        "  int twinshade_v[3];\n  vec4 twinshade_p[3];\n"
         "  for (int k = 0; k < 3; ++k) {\n"
-        "    uint v = twinshade_index[twinshade_PrimitiveID * 3 + k];\n"
-        "    twinshade_v[k] = v;\n"
-        "    twinshade_p[k] = uintBitsToFloat(uvec4(twinshade_bits(0u, v, 4u, 0u), twinshade_bits(0u, v, 4u, 1u),\n"
-        "                                           twinshade_bits(0u, v, 4u, 2u), twinshade_bits(0u, v, 4u, 3u)));\n"
+        "    twinshade_v[k] = int(texelFetch(twinshade_indices, twinshade_PrimitiveID * 3 + k).x);\n"
+        "    twinshade_p[k] = uintBitsToFloat(texelFetch(twinshade_positions, twinshade_v[k]));\n"
         "  }\n"
         "  precise vec2 twinshade_ndc = gl_FragCoord.xy * twinshade_ndc_scale - 1.0;\n"
         "  twinshade_ExactBarycentrics twinshade_b =\n"
@@ -135,11 +132,11 @@ std::string ShaderGenerator::fill() const {
   for (const Input& input : inputs_) {
     const bool flat = input.interpolation == "flat";
     for (const InputLeaf& leaf : leaves_of({input})) {
-      const std::string base = "uint(twinshade_base[" + number(leaf_number++) + "])";
+      const std::string base = "twinshade_base[" + number(leaf_number++) + "]";
       for (std::uint32_t c = 0; c < leaf.components; ++c, ++plane) {
         const auto at = [&](int corner) {
           return from_bits(leaf.scalar, "twinshade_bits(" + base + ", twinshade_v[" + number(std::size_t(corner)) +
-                                            "], " + number(leaf.components) + "u, " + number(c) + "u)");
+                                            "], " + number(leaf.components) + ", " + number(c) + ")");
         };
         std::string value;
         if (supply_ == Supply::texels)
@@ -160,8 +157,8 @@ std::string ShaderGenerator::fragment(const std::string& outputs, const std::str
                                       const std::string& after_user) const {
   std::string text = head();
   if (needs_triangle())
-    text += vertex_data(leaves_.size()) + "layout(std430) readonly buffer " + kIndexBlock +
-            " { uint twinshade_index[]; };\nuniform vec2 twinshade_ndc_scale;\n" + exact_attribute_functions();
+    text += vertex_data(leaves_.size()) + "uniform usamplerBuffer " + kPositions + ", " + kIndices +
+            ";\nuniform vec2 twinshade_ndc_scale;\n" + exact_attribute_functions();
   if (supply_ == Supply::texels)
     text += "uniform usampler2D twinshade_cpu_ids;\nuniform usampler2DArray twinshade_cpu_attributes;\n";
   if (supply_ != Supply::varyings)
@@ -217,8 +214,8 @@ std::string ShaderGenerator::vertex() const {
       }
       for (std::uint32_t c = 0; c < leaf.components; ++c)
         body += "  " + component(leaf, c) + " = " +
-                from_bits(leaf.scalar, "twinshade_bits(uint(twinshade_base[" + number(i) + "]), uint(gl_VertexID), " +
-                                           number(leaf.components) + "u, " + number(c) + "u)") +
+                from_bits(leaf.scalar, "twinshade_bits(twinshade_base[" + number(i) + "], gl_VertexID, " +
+                                           number(leaf.components) + ", " + number(c) + ")") +
                 ";\n";
     }
   }

@@ -10,7 +10,7 @@ namespace twinshade::gl {
 
 // Where the fragment shader's inputs come from.
 enum class Supply {
-  exact,     // vertex data in storage buffers, by shaders/exact/attributes.glsl
+  exact,     // vertex data in buffer textures, by shaders/exact/attributes.glsl
   varyings,  // GL's own interpolation
   texels,    // what the CPU captured, by texelFetch (softpipe)
 };
@@ -19,14 +19,15 @@ enum class Supply {
 inline constexpr int kGeneratedFile = 1000;
 
 // Names between generated shaders and the worker.
-inline constexpr const char* kVertexBlock = "twinshade_Vertices";
-inline constexpr const char* kIndexBlock = "twinshade_Indices";
+inline constexpr const char* kPositions = "twinshade_positions";     // one texel a vertex
+inline constexpr const char* kVertexData = "twinshade_vertex_data";  // one texel a float: positions, then attributes
+inline constexpr const char* kIndices = "twinshade_indices";
 inline constexpr const char* kNdcScale = "twinshade_ndc_scale";
 inline constexpr const char* kBases = "twinshade_base";  // float index of each leaf's values in the vertex data
 inline constexpr const char* kCpuIds = "twinshade_cpu_ids";
 inline constexpr const char* kCpuAttributes = "twinshade_cpu_attributes";
 
-// Vertex attributes that carry leaves beside the position; with more, the vertex shader pulls from a storage buffer.
+// Vertex attributes that carry leaves beside the position; with more, the vertex shader pulls from a buffer texture.
 inline constexpr std::size_t kMostVertexAttributes = 15;
 
 class ShaderGenerator {

@@ -39,12 +39,16 @@ std::string preprocess(const ShaderSource& source) {
   const char* strings[] = {text.c_str()};
   glslang::TShader shader(EShLangFragment);
   shader.setStrings(strings, 1);
-  shader.setEnvInput(glslang::EShSourceGlsl, EShLangFragment, glslang::EShClientOpenGL, 100);
-  shader.setEnvClient(glslang::EShClientOpenGL, glslang::EShTargetOpenGL_450);
-  shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_0);
+  // glslang makes no SPIR-V from ES 300, and its preprocessor refuses to begin: there it goes without.
+  const bool spirv = !source.es || source.version >= 310;
+  if (spirv) {
+    shader.setEnvInput(glslang::EShSourceGlsl, EShLangFragment, glslang::EShClientOpenGL, 100);
+    shader.setEnvClient(glslang::EShClientOpenGL, glslang::EShTargetOpenGL_450);
+    shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_0);
+  }
   glslang::TShader::ForbidIncluder no_includes;
   std::string result;
-  const auto messages = EShMessages(EShMsgSpvRules | EShMsgDebugInfo);
+  const auto messages = spirv ? EShMessages(EShMsgSpvRules | EShMsgDebugInfo) : EShMsgDefault;
   if (!shader.preprocess(GetDefaultResources(), 450, ENoProfile, false, false, messages, &result, no_includes))
     throw UserError(first_error(shader.getInfoLog()));
   return result;

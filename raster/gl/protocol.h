@@ -96,7 +96,7 @@ struct UniformValue {
 
 enum class Geometry : std::uint8_t {
   attributes,   // triangles; one vertex attribute per leaf behind the position
-  pulled,       // triangles; shaders read vertex data from storage buffers
+  pulled,       // triangles; shaders read vertex data from buffer textures
   full_screen,  // one triangle over the frame; the shader reads `cpu` pixels
 };
 

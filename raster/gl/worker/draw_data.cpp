@@ -67,7 +67,8 @@ std::uint64_t rounded_up(std::uint64_t bytes) { return (bytes + 15) / 16 * 16; }
 DrawData::DrawData(const GlFunctions& gl) : gl_(gl) {
   gl_.GenVertexArrays(1, &vertex_array_);
   gl_.BindVertexArray(vertex_array_);
-  gl_.GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most_storage_bytes_);
+  gl_.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most_buffer_texels_);
+  for (GLuint* view : {&position_view_, &vertex_view_, &index_view_}) gl_.GenTextures(1, view);
 }
 
 void DrawData::replace(ImageIndex index, SharedMemory memory) {
@@ -84,7 +85,19 @@ void DrawData::replace(ImageIndex index, SharedMemory memory) {
   fill_buffer(gl_, indices_, memory_.data() + index_.indices, index_.index_count * 4, index_.index_count * 4);
   fill_buffer(gl_, drawn_indices_, memory_.data() + index_.drawn_indices, index_.index_count * 4,
               index_.index_count * 4);
+  view_buffer(position_view_, GL_RGBA32UI, vertices_, index_.vertex_count);
+  view_buffer(vertex_view_, GL_R32UI, vertices_, index_.vertex_floats);
+  view_buffer(index_view_, GL_R32UI, indices_, index_.index_count);
   check_errors(gl_, "uploading vertices");
+}
+
+void DrawData::view_buffer(GLuint view, GLenum format, GLuint buffer, std::uint64_t texels) {
+  if (texels > std::uint64_t(most_buffer_texels_))
+    throw std::runtime_error(std::to_string(texels) +
+                             " numbers of vertex data or indices are more than the driver's buffer textures hold (" +
+                             std::to_string(most_buffer_texels_) + ")");
+  gl_.BindTexture(GL_TEXTURE_BUFFER, view);
+  gl_.TexBuffer(GL_TEXTURE_BUFFER, format, buffer);
 }
 
 void DrawData::set_cpu_pixels(std::uint32_t width, std::uint32_t height, std::uint32_t components, const std::byte* ids,
@@ -151,17 +164,7 @@ void DrawData::bind(const Program& program, const DrawRequest& request) {
   }
   binding = 0;
   for (const ActiveBlock& block : program.storage_blocks()) {
-    const bool own = block.name == kVertexBlock || block.name == kIndexBlock;
-    if (own) {
-      const std::uint64_t bytes = 4 * (block.name == kVertexBlock ? index_.vertex_floats : index_.index_count);
-      if (bytes > std::uint64_t(most_storage_bytes_))
-        throw std::runtime_error(std::to_string(bytes) +
-                                 " bytes of vertex data are more than the driver's storage buffers hold (" +
-                                 std::to_string(most_storage_bytes_) + ")");
-      gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, block.name == kVertexBlock ? vertices_ : indices_);
-    } else {
-      bind_buffer(block, true, binding);
-    }
+    bind_buffer(block, true, binding);
     gl_.ShaderStorageBlockBinding(program.id(), block.index, binding++);
   }
   check_errors(gl_, "binding uniforms and buffers");
@@ -173,6 +176,12 @@ bool DrawData::bind_own_uniform(const ActiveUniform& uniform, const DrawRequest&
     bind_unit(uniform.location, GL_TEXTURE_2D, cpu_ids_);
   } else if (uniform.name == kCpuAttributes) {
     bind_unit(uniform.location, GL_TEXTURE_2D_ARRAY, cpu_attributes_);
+  } else if (uniform.name == kPositions) {
+    bind_unit(uniform.location, GL_TEXTURE_BUFFER, position_view_);
+  } else if (uniform.name == kVertexData) {
+    bind_unit(uniform.location, GL_TEXTURE_BUFFER, vertex_view_);
+  } else if (uniform.name == kIndices) {
+    bind_unit(uniform.location, GL_TEXTURE_BUFFER, index_view_);
   } else if (uniform.name == kNdcScale) {
     gl_.Uniform2f(uniform.location, 2.0f / float(std::bit_ceil(request.width)),
                   2.0f / float(std::bit_ceil(request.height)));

@@ -39,6 +39,7 @@ class DrawData {
   void bind_buffer(const ActiveBlock& block, bool storage, GLuint binding);
   GLuint texture(const ImageTexture& texture);
   GLuint buffer(const ImageBuffer& buffer);
+  void view_buffer(GLuint view, GLenum format, GLuint buffer, std::uint64_t texels);
   void bind_unit(GLint location, GLenum target, GLuint name);
 
   const GlFunctions& gl_;
@@ -46,11 +47,12 @@ class DrawData {
   SharedMemory memory_;
   GLuint vertex_array_ = 0;
   GLuint vertices_ = 0, indices_ = 0, drawn_indices_ = 0;
+  GLuint position_view_ = 0, vertex_view_ = 0, index_view_ = 0;  // buffer textures over vertices_ and indices_
   std::map<std::string, GLuint> textures_, buffers_;
   std::set<std::string> written_;  // storage buffers bound since they were last filled
   GLuint cpu_ids_ = 0, cpu_attributes_ = 0;
   GLint next_unit_ = 0;
-  GLint most_storage_bytes_ = 0;
+  GLint most_buffer_texels_ = 0;
   std::uint32_t enabled_attributes_ = 0;
 };
 

@@ -66,6 +66,7 @@ namespace twinshade::gl {
   X(ReadPixels, READPIXELS)                               \
   X(ShaderSource, SHADERSOURCE)                           \
   X(ShaderStorageBlockBinding, SHADERSTORAGEBLOCKBINDING) \
+  X(TexBuffer, TEXBUFFER)                                 \
   X(TexImage2D, TEXIMAGE2D)                               \
   X(TexImage3D, TEXIMAGE3D)                               \
   X(TexParameteri, TEXPARAMETERI)                         \

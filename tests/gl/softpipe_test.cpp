@@ -1,0 +1,96 @@
+// Shading on softpipe what another renderer covered.
+#include <doctest/doctest.h>
+
+#include "golden/compare_frames.h"
+#include "raster/gl/gl_renderer.h"
+#include "tests/gl/test_bundles.h"
+#include "tests/gl/test_shaders.h"
+
+using namespace twinshade;
+using test::error_of;
+using test::shader;
+
+namespace {
+
+constexpr double kTimeLimit = 60;
+
+const std::string kInputs =
+    "in vec3 v_color; in float v_scale; flat in uint v_tag; uniform float k; uniform sampler2D map;\nout vec4 c;\n";
+
+Bundle soup_with_resources() {
+  Bundle bundle = test::soup(test::Soup::large, 120, 70, 40, 9);
+  bundle.uniforms = {{"k", Scalar::f32, 1, 1, 0, {1.25f}}};
+  bundle.textures = {{"map", TextureKind::two_d, 2, 1, 1, Filter::nearest, Wrap::repeat, {1, 2, 3, 4, 5, 6, 7, 8}}};
+  return bundle;
+}
+
+// Draws on llvmpipe with captured attributes, shades the same pixels on softpipe.
+Comparison shaded_alike(const std::string& text) {
+  const Bundle bundle = soup_with_resources();
+  DrawOptions options;
+  options.capture_attributes = true;
+  static const auto egl = make_gl_renderer(GlBackend::egl);
+  const Frame reference = egl->draw(bundle, shader(text), options);
+  const Frame frame = shade_on_softpipe(bundle, shader(text), reference, {}, kTimeLimit);
+  CHECK(frame.primitive_id == reference.primitive_id);
+  CHECK(frame.coverage == reference.coverage);
+  CHECK(frame.depth == reference.depth);
+  for (std::size_t p = 0; p < frame.coverage.size(); ++p)
+    if (!frame.coverage[p]) REQUIRE(frame.color[p * 4] == 0.0f);
+  return compare_frames(reference, frame, CompareScope::shaded_by_a);
+}
+
+}  // namespace
+
+TEST_CASE("the exact dialect shades to the same bits on softpipe") {
+  const Comparison result =
+      shaded_alike(kInputs +
+                   "void main() {\n"
+                   "  precise vec3 a = v_color * v_scale + v_color.zxy * k;\n"
+                   "  precise float b = sqrt(a.x * a.x + 1.0) / v_scale;\n"
+                   "  c = vec4(a + texelFetch(map, ivec2(int(v_tag & 1u), 0), 0).xyz, b > 2.0 ? b : -b);\n"
+                   "}\n");
+  CHECK(result.shaded_pixels > 1000);
+  CHECK(result.pixels_differ == 0);
+}
+
+TEST_CASE("built-ins of the fragment are the exact ones on softpipe too") {
+  CHECK(shaded_alike(
+            "out vec4 c; void main() { c = vec4(gl_FragCoord.zw, float(gl_PrimitiveID), gl_FrontFacing ? 1.0 : 0.0); }")
+            .pixels_differ == 0);
+  CHECK(shaded_alike("out vec4 c; void main() { c = vec4(gl_FragCoord.xy, 0, 1); }").pixels_differ == 0);
+}
+
+TEST_CASE("storage buffers and uniform blocks work on softpipe") {
+  Bundle bundle = test::quad(6, 4);
+  bundle.buffers = {{"Params", false, std::vector<std::byte>(16, std::byte{0x40})},
+                    {"Table", true, std::vector<std::byte>(16, std::byte{0x41})}};
+  const ShaderSource source = shader(
+      "layout(std140) uniform Params { vec4 a; }; layout(std430) readonly buffer Table { float t[]; };\nin vec2 v_uv; "
+      "out vec4 c;\n"
+      "void main() { c = vec4(a.x, t[3], v_uv); }");
+  DrawOptions options;
+  options.capture_attributes = true;
+  const Frame reference = make_gl_renderer(GlBackend::egl)->draw(bundle, source, options);
+  const Frame frame = shade_on_softpipe(bundle, source, reference, {}, kTimeLimit);
+  CHECK(compare_frames(reference, frame).pixels_differ == 0);
+  CHECK(frame.color[1] > 12.0f);
+}
+
+TEST_CASE("derivatives are refused on softpipe by name") {
+  const Bundle bundle = test::quad(4, 4);
+  Frame empty;
+  empty.width = empty.height = 4;
+  CHECK(error_of([&] {
+          shade_on_softpipe(bundle, shader("in vec2 v_uv;\nout vec4 c;\nvoid main() { c = vec4(fwidth(v_uv), 0, 1); }"),
+                            empty, {}, kTimeLimit);
+        }).find("test.frag:3: fwidth cannot be shaded on softpipe") == 0);
+}
+
+TEST_CASE("a frame without captured attributes cannot be shaded") {
+  const Bundle bundle = test::quad(4, 4);
+  const ShaderSource source = shader("in vec2 v_uv; out vec4 c; void main() { c = vec4(v_uv, 0, 1); }");
+  const Frame frame = make_gl_renderer(GlBackend::egl)->draw(bundle, source, {});
+  CHECK(error_of([&] { shade_on_softpipe(bundle, source, frame, {}, kTimeLimit); }) ==
+        "softpipe: the frame to shade has no captured attribute v_uv.x");
+}

@@ -90,7 +90,7 @@ EnvironmentSampler::EnvironmentSampler(const Environment& environment) {
   if (!bright_.empty()) bright_.back().cumulative = 1;
 
   // The rest as a cube, each texel the mean of 2 x 2 points
-  face_size_ = std::clamp<std::uint32_t>(width / 2, 16, 512);
+  face_size_ = std::clamp<std::uint32_t>(width / 4, 16, 512);
   const std::size_t face_texels = std::size_t(face_size_) * face_size_;
   faces_.resize(6 * face_texels);
   parallel_for(std::size_t(6) * face_size_, [&](std::size_t row, int) {

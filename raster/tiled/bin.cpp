@@ -84,13 +84,23 @@ class ChunkSetup {
     if (clipped.count < 3) return;
     const std::size_t first_row = native_ ? add_clipped_inputs(clipped, index) : 0;
     const auto corner = [&](std::uint8_t number) -> Corner {
-      if (number < 3) return corner_of_vertex(index[number]);
+      if (number < 3)
+        return {geometry_.vertices[index[number]], to_window(positions + 4 * number, viewport_), index[number]};
       const WindowPosition position = to_window(clipped.added[number - 3].position, viewport_);
       return {snap(position, 0), position, kClippedVertex | std::uint32_t(first_row + number - 3)};
     };
-    for (int i = 2; i < clipped.count; ++i)  // the polygon's fan, its first vertex last, as Mesa emits it
-      add_triangle(primitive, {corner(clipped.polygon[std::size_t(i - 1)]), corner(clipped.polygon[std::size_t(i)]),
-                               corner(clipped.polygon[0])});
+    for (int i = 2; i < clipped.count; ++i) {  // the polygon's fan, its first vertex last, as Mesa emits it
+      const std::array<Corner, 3> corners = {corner(clipped.polygon[std::size_t(i - 1)]),
+                                             corner(clipped.polygon[std::size_t(i)]), corner(clipped.polygon[0])};
+      if (!bundle_.cull_back_faces || faces_front(corners)) add_triangle(primitive, corners);
+    }
+  }
+
+  // Mesa culls what it has clipped twice: in unsnapped positions, then in setup as everything. The first matters to
+  // slivers.
+  static bool faces_front(const std::array<Corner, 3>& corners) {
+    const WindowPosition &p0 = corners[0].position, &p1 = corners[1].position, &p2 = corners[2].position;
+    return (p0.x - p2.x) * (p1.y - p2.y) - (p0.y - p2.y) * (p1.x - p2.x) > 0;
   }
 
   // Shader inputs of the new vertices, by the same t as their positions. Returns the row of the first.

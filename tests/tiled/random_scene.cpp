@@ -55,7 +55,7 @@ void put_on_grid(float* out, Random& random, std::uint32_t width, std::uint32_t 
 
 void put_triangle(float (&p)[12], Random& random, const Bundle& bundle) {
   const double cx = random.between(-1, 1), cy = random.between(-1, 1);
-  switch (random.below(10)) {
+  switch (random.below(11)) {
     case 0:  // small
     case 1:
       for (int v = 0; v < 3; ++v) put_vertex(p + 4 * v, random, cx, cy, 0.05);
@@ -88,11 +88,19 @@ void put_triangle(float (&p)[12], Random& random, const Bundle& bundle) {
       for (int v = 0; v < 3; ++v) put_vertex(p + 4 * v, random, cx, cy, 0.3);
       for (int c = 0; c < 4; ++c) p[8 + c] = p[4 * int(random.below(2)) + c];
       break;
+    case 9: {  // any magnitude: the same picture at another scale, until products of coordinates overflow or vanish
+      for (int v = 0; v < 3; ++v) put_vertex(p + 4 * v, random, cx, cy, 0.4);
+      const double scale = std::exp2(std::floor(random.between(-110, 120)));
+      for (float& c : p) c = float(c * scale);
+      break;
+    }
     default:  // exactly on planes of the view volume, w = 0 among them
       for (int v = 0; v < 3; ++v) {
         const double w = double(random.below(3));
         p[4 * v + 3] = float(w);
         for (int c = 0; c < 3; ++c) p[4 * v + c] = float((double(random.below(5)) - 2) * (w > 0 ? w : 1) * 0.5);
+        // The eye point itself, (0, 0, 0, 0), has no place on the screen: docs/raster-rule.md.
+        if (w == 0 && p[4 * v] == 0 && p[4 * v + 1] == 0) p[4 * v + 2] = 1;
       }
   }
 }

@@ -158,7 +158,7 @@ TEST_CASE("a finding names file, line and operation through macros, conditionals
   const ShaderSource source = resolve_shader("lines",
                                              "#define SCALE(x) ((x) * 0.1)\n"
                                              "in float a;\n"
-                                             "out vec4 color;\n"
+                                             "invariant out vec4 color;\n"
                                              "#ifdef ABSENT\n"
                                              "float unseen() { return sin(1.0); }\n"
                                              "#endif\n"
@@ -213,6 +213,47 @@ TEST_CASE("blocks, structures, arrays and overloads are followed") {
   CHECK(rules_of(lint(shader_of("Outer o; float x = o.inner.v[1].y * 2.0;", before))) == "precise");
   CHECK(rules_of(lint(shader_of("int i = pick(k) * 2;", before))) == "");
   CHECK(rules_of(lint(shader_of("float x = pick(a.x) * 2.0;", before))) == "precise");
+}
+
+TEST_CASE("the parser keeps its place through everything that GLSL allows") {
+  // The last statements break rules: they are found where the parser came this far.
+  const std::string text =
+      "layout(origin_upper_left) in vec4 gl_FragCoord;\n"
+      "struct Ray { vec3 origin, direction; float lengths[2][3]; } shared_ray;\n"
+      "const struct { int a; } anonymous = { 3 };\n"
+      "layout(std430, binding = 1) buffer Out { uint count; vec4 items[]; } sink[2];\n"
+      "layout(rgba32f) uniform readonly highp image2D picture;\n"
+      "uniform isampler2D indices; uniform samplerCubeArrayShadow shadows; uniform usampler2DArray ids[3];\n"
+      "const float table[3] = float[](1.0, 2.0, 4.0);\n"
+      "const vec2 nested[2] = { { 1.0, 2.0 }, { 3.0, 4.0 } };\n"
+      "precise float global; in float wild; flat in ivec4 many; invariant out vec4 color;\n"
+      "void nothing(void); vec2 lights_of() { return vec2(1.0); }\n"
+      "Ray make(const in Ray r, inout vec3 v, out float t[2]) { t = float[2](1.0, 2.0); v.zyx = r.origin; return r; }\n"
+      "void nothing(void) { return; }\n"
+      "vec3 pick(vec3 v[2], int i) { return v[i]; }\n"
+      "void main() {\n"
+      "  int i = 0, j[2] = int[2](1, 2), k; k = i++ + --j[0];\n"
+      "  Ray ray = Ray(vec3(1.0), vec3(2.0), float[2][3](float[3](1.0, 1.0, 1.0), float[3](1.0, 1.0, 1.0)));\n"
+      "  float t[2]; vec3 v; ray = make(ray, v, t);\n"
+      "  for (;;) { if (i > 3) break; else if (i == 2) { ++i; continue; } i += 2; }\n"
+      "  for (int a = 0, b = 3; a < b; ++a, --b) ;\n"
+      "  while (bool again = i < 9) { i++; if (!again) break; }\n"
+      "  do i--; while (i > 0);\n"
+      "  switch (i) { case 0: case 1: k = 2; break; default: { k = ~i ^ 5 | 3 & 1; } }\n"
+      "  uvec2 q = uvec2(many.xy) << 3u >> uint(1); bool flag = !(i < 3 && i != 2 || k >= 1 ^^ true);\n"
+      "  vec3 both[2] = vec3[](v, v.xxz); mat3 m = mat3(1.0); m[1].yz = vec2(t[0], ray.lengths[1][2]);\n"
+      "  color = texelFetch(indices, ivec2(0), 0).x > 0 ? vec4(pick(both, 1), 1.0) : vec4(nested[1], lights_of());\n"
+      "  atomicAdd(sink[1].count, 1u); sink[0].items[i] = imageLoad(picture, ivec2(many.x, sink[0].items.length()));\n"
+      "  nothing(); ; { } i = (k = 3, k); k <<= 2; k %= 3; color.rg = color.gr; gl_FragDepth = table[i];\n"
+      "  if (gl_FrontFacing) discard;\n"
+      "  global = wild * wild;\n"
+      "  color.x = wild * wild;\n"
+      "}\n";
+  const std::vector<LintFinding> findings = lint(resolve_shader("everything", text, "everything.frag"));
+  REQUIRE(findings.size() == 2);
+  CHECK(findings[0].rule == "remainder");
+  CHECK(findings[1].rule == "precise");
+  CHECK(findings[1].line == 30);
 }
 
 TEST_CASE("a shader that is not GLSL is refused with its position") {

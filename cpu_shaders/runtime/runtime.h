@@ -3,6 +3,12 @@
 
 #include "cpu_shaders/runtime/aggregates.h"
 #include "cpu_shaders/runtime/conversions.h"
+#include "cpu_shaders/runtime/glsl_common.h"
+#include "cpu_shaders/runtime/glsl_derivative.h"
+#include "cpu_shaders/runtime/glsl_geometric.h"
+#include "cpu_shaders/runtime/glsl_integer.h"
+#include "cpu_shaders/runtime/glsl_packing.h"
+#include "cpu_shaders/runtime/glsl_transcendental.h"
 #include "cpu_shaders/runtime/indexing.h"
 #include "cpu_shaders/runtime/invocation.h"
 #include "cpu_shaders/runtime/memory.h"

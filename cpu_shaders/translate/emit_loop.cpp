@@ -53,8 +53,7 @@ std::string FunctionEmitter::loop_condition(const Statement& s, Id condition, bo
       return may_discard ? "any((" + test + ") & kept)" : "any(" + test + ")";
     }
     if (!own_mask.empty() || may_discard) {
-      if (!inverted && c.precedence > 10) test = "(" + test + ")";
-      test += " && ";
+      test = "bool(" + test + ") && ";
     }
   }
   if (!own_mask.empty()) return test + "any(" + own_mask + (may_discard ? " & kept)" : ")");
@@ -80,9 +79,10 @@ void FunctionEmitter::loop(const Statement& s) {
   names_.open();
   out_.indent();
   std::size_t mark = out_.mark();
-  const Statement* test = head_test(s, 0);
+  // A loop that is tested at its end starts with its body, even if that begins with a break.
+  const Statement* test = s.back_condition == 0 ? head_test(s, 0) : nullptr;
   std::size_t rest = 1;
-  if (test == nullptr && !s.body.empty() && s.body[0]->shape == Shape::code) {
+  if (test == nullptr && s.back_condition == 0 && !s.body.empty() && s.body[0]->shape == Shape::code) {
     test = head_test(s, 1);
     rest = 2;
   }

@@ -375,7 +375,14 @@ class ModuleEmitter {
     table("ShaderResource", "kResources", resources);
 
     const std::string scalar = r.uses_derivatives ? "Quad" : "Scalar";
-    t += "\nconstexpr ShaderEntry kEntries[] = {\n";
+    t += "}  // namespace\n}  // namespace TWINSHADE_ISA_NAMESPACE\n\n";
+    // A shared object has one module; linked objects leave their entries to whoever joins them.
+    t += "#if defined(TWINSHADE_SHARED_OBJECT)\n#define TWINSHADE_ENTRIES entries\n#define TWINSHADE_ENTRY_COUNT "
+         "entry_count\n#else\n";
+    t += "#define TWINSHADE_ENTRIES TWINSHADE_JOIN(twinshade_entries_" + id + "_, TWINSHADE_ISA)\n";
+    t += "#define TWINSHADE_ENTRY_COUNT TWINSHADE_JOIN(twinshade_entry_count_" + id + "_, TWINSHADE_ISA)\n#endif\n";
+    t += "extern const ShaderEntry TWINSHADE_ENTRIES[];\nextern const std::uint32_t TWINSHADE_ENTRY_COUNT;\n";
+    t += "const ShaderEntry TWINSHADE_ENTRIES[] = {\n";
     const auto entry = [&](int bit, const std::string& number, const std::string& policy) {
       t += "#if TWINSHADE_NUMBERS & " + std::to_string(bit) + "\n    {Isa(TWINSHADE_ISA_NUMBER), Number::" + number +
            ", shade_all<Shader, " + policy + ">},\n#endif\n";
@@ -386,7 +393,7 @@ class ModuleEmitter {
     entry(8, "scalar", scalar + "32");
     if (r.no_float64_reason.empty()) entry(16, "float64", scalar + "64");
     t += "    {Isa(TWINSHADE_ISA_NUMBER), Number::scalar, nullptr}};  // the end, not counted\n";
-    t += "constexpr std::uint32_t kEntryCount = sizeof kEntries / sizeof *kEntries - 1;\n\n";
+    t += "const std::uint32_t TWINSHADE_ENTRY_COUNT = sizeof TWINSHADE_ENTRIES / sizeof *TWINSHADE_ENTRIES - 1;\n\n";
 
     const auto array = [](bool empty, const char* name) {
       return empty ? std::string("nullptr, 0") : std::string(name) + ", sizeof " + name + " / sizeof *" + name;
@@ -408,19 +415,13 @@ class ModuleEmitter {
            entries + "};\n";
       return m;
     };
-    t += "}  // namespace\n}  // namespace TWINSHADE_ISA_NAMESPACE\n\n";
     t += "#if defined(TWINSHADE_SHARED_OBJECT)\n";
-    t += "extern \"C\" __attribute__((visibility(\"default\"))) extern const ShaderModule twinshade_shader_module;\n";
-    t += "const ShaderModule twinshade_shader_module = {\n" + module("kEntries, kEntryCount");
-    t += "#else\n";
-    t += "extern const ShaderEntry* const TWINSHADE_JOIN(twinshade_entries_" + id + "_, TWINSHADE_ISA);\n";
-    t += "extern const std::uint32_t TWINSHADE_JOIN(twinshade_entry_count_" + id + "_, TWINSHADE_ISA);\n";
-    t += "const ShaderEntry* const TWINSHADE_JOIN(twinshade_entries_" + id + "_, TWINSHADE_ISA) = kEntries;\n";
-    t += "const std::uint32_t TWINSHADE_JOIN(twinshade_entry_count_" + id + "_, TWINSHADE_ISA) = kEntryCount;\n";
-    t += "#if TWINSHADE_ISA_NUMBER == 0\n";
+    t += "extern \"C\" __attribute__((visibility(\"default\"))) const ShaderModule twinshade_shader_module;\n";
+    t += "const ShaderModule twinshade_shader_module = {\n" + module("TWINSHADE_ENTRIES, TWINSHADE_ENTRY_COUNT");
+    t += "#elif TWINSHADE_ISA_NUMBER == 0\n";
     t += "extern const ShaderModule twinshade_module_" + id + ";\n";
     t += "const ShaderModule twinshade_module_" + id + " = {\n" + module("nullptr, 0");
-    t += "#endif\n#endif\n\n}  // namespace twinshade\n";
+    t += "#endif\n\n}  // namespace twinshade\n";
     return t;
   }
 

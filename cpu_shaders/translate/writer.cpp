@@ -2,11 +2,32 @@
 
 namespace twinshade::spirv {
 namespace {
+
 constexpr std::size_t kColumns = 120;
+
+// Where to break a text that must not be longer than `most`: at the last space of those inside the fewest brackets. Any
+// space will do, since generated code has spaces nowhere else but between tokens.
+std::size_t break_before(const std::string& text, std::size_t most) {
+  std::size_t best = std::string::npos;
+  int depth = 0, best_depth = 0;
+  for (std::size_t k = 0; k < text.size() && k <= most; ++k) {
+    const char c = text[k];
+    if (c == '(' || c == '{' || c == '[') ++depth;
+    if (c == ')' || c == '}' || c == ']') --depth;
+    // The first third of a line is too little to break after, unless there is nothing else.
+    const bool early = k < most / 3;
+    if (c == ' ' && k > 0 && text[k - 1] != '<' &&
+        (best == std::string::npos || depth <= best_depth + (best < most / 3 ? 99 : 0)) &&
+        (!early || best == std::string::npos || best < most / 3)) {
+      best = k;
+      best_depth = depth;
+    }
+  }
+  return best;
 }
 
-// Breaks after the last space that follows a comma or precedes an operator: any space does, since generated code has
-// spaces nowhere else but between tokens. Comments are never broken.
+}  // namespace
+
 void Writer::line(const std::string& text) {
   if (text.empty()) {
     lines_.emplace_back();
@@ -17,8 +38,8 @@ void Writer::line(const std::string& text) {
   const bool comment = text.rfind("//", 0) == 0;
   bool first = true;
   while (!comment && prefix.size() + rest.size() > kColumns) {
-    const std::size_t space = rest.rfind(' ', kColumns - prefix.size());
-    if (space == std::string::npos || space == 0) break;
+    const std::size_t space = break_before(rest, kColumns - prefix.size());
+    if (space == std::string::npos) break;
     lines_.push_back(prefix + rest.substr(0, space));
     rest = rest.substr(space + 1);
     if (first) prefix += "    ";

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "cpu_shaders/runtime/machine.h"
 
 namespace twinshade::tiled {
 namespace {
@@ -26,18 +27,6 @@ const char* isa_name(Isa isa) {
 const char* number_name(Number number) {
   static constexpr const char* kNames[] = {"lanes4", "lanes8", "lanes16", "scalar", "float64"};
   return kNames[int(number)];
-}
-
-Isa machine_isa() {
-#if defined(__x86_64__)
-  __builtin_cpu_init();
-  const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
-  const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-                      __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
-                      __builtin_cpu_supports("avx512vl");
-  if (avx2) return avx512 ? Isa::avx512 : Isa::avx2;
-#endif
-  return Isa::baseline;
 }
 
 const ShaderEntry& choose_entry(const ShaderModule& module, Number number, std::optional<Isa> isa) {

@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "base/parallel.h"
-#include "raster/tiled/entry.h"
+#include "cpu_shaders/runtime/machine.h"
 #include "raster/tiled/tiled_renderer.h"
 #include "tests/tiled/hand_module.h"
 #include "tests/tiled/random_scene.h"
@@ -43,7 +43,7 @@ TEST_CASE("lanes and instruction sets give the same bits") {
       options.number = Number::lanes4;
       const std::string expected = hash(bundle, *module, options);
       for (const ShaderEntry entry : test::entries_of(nullptr, nullptr)) {
-        if (entry.isa > tiled::machine_isa() || entry.number == Number::float64) continue;
+        if (entry.isa > machine_isa() || entry.number == Number::float64) continue;
         CAPTURE(int(entry.isa));
         CAPTURE(int(entry.number));
         options.isa = entry.isa;

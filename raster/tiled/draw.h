@@ -91,9 +91,9 @@ class TileWorker {
   void collect_visible_quads();
   void shade_in_order();  // in_order_pass.cpp
   void resolve_in_order();
-  void store_tile();
-  template <std::size_t count>
-  void store_pixels(std::uint32_t quad, std::uint32_t first, std::size_t pixel);
+  void store_tile();  // store_tile.cpp
+  void store_superblock(std::uint32_t first, std::uint32_t x, std::uint32_t y);
+  void store_superblock_by_pixels(std::uint32_t first, std::uint32_t x, std::uint32_t y);
 
   ShadeQuad place(std::uint32_t tile_quad, std::uint32_t local) const {
     const QuadOffset offset = quad_offset_[tile_quad];

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstring>
 
 #include "raster/tiled/draw.h"
 
@@ -66,43 +65,6 @@ void TileWorker::gather_triangles(std::uint32_t tile) {
   tile_.locals = locals_.data();
   tile_.count = std::uint32_t(triangles_.size());
   tile_.primitives = primitives_.data();
-}
-
-// From the tile's order of pixels to the frame's rows; clear where nothing was drawn.
-void TileWorker::store_tile() {
-  Frame& frame = draw_.frame;
-  const std::uint32_t quads = tile_.size * tile_.size / 4;
-  for (std::uint32_t q = 0; q < quads; ++q) {
-    const ShadeQuad at = place(q, 0);
-    if (at.x + 1u < frame.width && at.y + 1u < frame.height) {
-      store_pixels<2>(q, 0, std::size_t(at.y) * frame.width + at.x);
-      store_pixels<2>(q, 2, (std::size_t(at.y) + 1) * frame.width + at.x);
-    } else {
-      for (std::uint32_t i = 0; i < 4; ++i) {
-        const std::uint32_t x = at.x + (i & 1), y = at.y + (i >> 1);
-        if (x < frame.width && y < frame.height) store_pixels<1>(q, i, std::size_t(y) * frame.width + x);
-      }
-    }
-  }
-}
-
-// `count` pixels of a quad from `first` on to neighbours in the frame.
-template <std::size_t count>
-void TileWorker::store_pixels(std::uint32_t quad, std::uint32_t first, std::size_t pixel) {
-  Frame& frame = draw_.frame;
-  const std::size_t from = 4 * std::size_t(quad) + first;
-  std::memcpy(&frame.depth[pixel], &tile_.depth[from], count * sizeof(float));
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t local = tile_.visible[from + i];
-    const bool drawn = local != kNotVisible;
-    frame.coverage[pixel + i] = drawn;
-    frame.primitive_id[pixel + i] = drawn ? primitives_[local].primitive : kNoPrimitive;
-    if (drawn)
-      std::memcpy(&frame.color[4 * (pixel + i)], &color_[4 * (from + i)], 4 * sizeof(float));
-    else
-      std::fill_n(&frame.color[4 * (pixel + i)], 4, 0.0f);
-    if (!drawn && draw_.float64()) std::fill_n(&frame.color64[4 * (pixel + i)], 4, 0.0);
-  }
 }
 
 }  // namespace twinshade::tiled

@@ -14,10 +14,13 @@ const std::string& exact_attribute_functions() {
   static const std::string text = [] {
     const ShaderSource source =
         resolve_shader("attributes", "#include \"exact/attributes.glsl\"\n", "shaders/generated.glsl");
-    TokenText tokens = tokenize(source, preprocess(source));
-    for (Token& token : tokens.tokens)
-      if (token.text.rfind("exact_", 0) == 0 || token.text == "ExactBarycentrics") token.text = kPrefix + token.text;
-    return join(tokens) + "\n#line 1 " + number(kGeneratedFile) + "\n";
+    const TokenText tokens = tokenize(source, preprocess(source));
+    std::string functions;  // without its #line: in a driver's log these are generated lines
+    for (const Token& token : tokens.tokens) {
+      const bool own = token.text.rfind("exact_", 0) == 0 || token.text == "ExactBarycentrics";
+      functions += (token.before.empty() ? "" : " ") + std::string(own ? kPrefix : "") + token.text;
+    }
+    return functions + "\n";
   }();
   return text;
 }

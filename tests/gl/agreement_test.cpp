@@ -57,9 +57,9 @@ TEST_CASE("EGL, OSMesa, no fused multiply-add and one thread: the same bits with
   }();
   DrawOptions options;
   options.capture_attributes = true;
-  for (const auto& [kind, name] : kSoups) {
-    CAPTURE(name);
-    const Bundle bundle = test::soup(kind, 300, 200, 400, 7);
+  for (const auto& soup : kSoups) {
+    CAPTURE(soup.second);
+    const Bundle bundle = test::soup(soup.first, 300, 200, 400, 7);
     const Frame reference = egl->draw(bundle, shader(kSoupShader), options);
     for (const auto& other : others) check_equal(reference, other->draw(bundle, shader(kSoupShader), options));
   }

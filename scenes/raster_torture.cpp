@@ -196,6 +196,7 @@ void zero_area(Torture& t, int count) {
         break;
       case 1:
         t.triangle(a, a, a);
+        t.triangle(b, a, b);
         break;
       case 2:
         t.triangle(a, b, t.vertex(q.x, q.y, q.z, 3));

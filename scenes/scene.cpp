@@ -9,6 +9,7 @@
 #include "base/hash.h"
 #include "base/names.h"
 #include "scenes/builtin_scenes.h"
+#include "scenes/model_file.h"
 
 namespace twinshade {
 namespace {
@@ -35,6 +36,14 @@ Scene load_scene(const std::string& name_or_path, std::uint32_t triangles) {
   if (name_or_path == "quad") return make_quad(triangles);
   if (name_or_path == "raster_torture") return make_raster_torture(triangles, false);
   if (name_or_path == "raster_invalid") return make_raster_torture(triangles, true);
+  const std::string ending = model_file_ending(name_or_path);
+  if (!ending.empty()) {
+    if (triangles != 0)
+      throw UserError(name_or_path + ": --triangles is for built-in scenes; a model is drawn as it is");
+    return load_model_file(name_or_path);
+  }
+  if (name_or_path.find_first_of("/.") != std::string::npos)
+    throw UserError(name_or_path + ": not a model: the name must end in .gltf, .glb or .obj");
   throw UserError(unknown_name_message("scene", name_or_path, scene_names()));
 }
 

@@ -1,0 +1,375 @@
+// Khronos Group, glTF 2.0 specification (ISO/IEC 12113:2022), sections 3.5 (scenes), 3.7 (meshes, skins), 3.9
+// (materials), 3.10 (cameras); KHR_texture_transform; KHR_materials_pbrSpecularGlossiness.
+#include "scenes/gltf_model.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "base/portable_math.h"
+#include "scenes/gltf_document.h"
+#include "scenes/material_image.h"
+
+namespace twinshade {
+namespace {
+
+using glm::dmat4;
+using glm::dvec3;
+using glm::dvec4;
+using nlohmann::json;
+
+// How a texture is looked up: which uv set, moved by KHR_texture_transform.
+struct Lookup {
+  int texture = -1;
+  int uv_set = 0;
+  double offset_x = 0, offset_y = 0, rotation = 0, scale_x = 1, scale_y = 1;
+
+  bool same_place(const Lookup& other) const {
+    return std::array{double(uv_set), offset_x, offset_y, rotation, scale_x, scale_y} ==
+           std::array{double(other.uv_set), other.offset_x, other.offset_y,
+                      other.rotation,       other.scale_x,  other.scale_y};
+  }
+};
+
+class Reader {
+ public:
+  explicit Reader(const std::string& path) : document_(path) {}
+
+  Model read() {
+    try {
+      read_all();
+    } catch (const json::exception& error) {
+      document_.fail("damaged: " + std::string(error.what()));
+    }
+    return std::move(model_);
+  }
+
+ private:
+  void read_all() {
+    find_world_transforms();
+    for (std::size_t node : order_) {
+      if (document_.element("nodes", node).contains("mesh")) read_mesh_node(node);
+      if (document_.element("nodes", node).contains("camera")) read_camera(node);
+    }
+    for (const std::string& note : notes_) model_.notes.push_back(note);
+  }
+
+  // Depth first through the default scene.
+  void find_world_transforms() {
+    std::vector<std::size_t> roots;
+    if (document_.count("scenes") > 0) {
+      for (const json& node : document_.element("scenes", document_.default_scene()).value("nodes", json::array()))
+        roots.push_back(node.get<std::size_t>());
+    } else {
+      std::set<std::size_t> children;
+      for (std::size_t i = 0; i < document_.count("nodes"); ++i)
+        for (const json& child : document_.element("nodes", i).value("children", json::array()))
+          children.insert(child.get<std::size_t>());
+      for (std::size_t i = 0; i < document_.count("nodes"); ++i)
+        if (!children.count(i)) roots.push_back(i);
+    }
+    world_.assign(document_.count("nodes"), dmat4(1));
+    std::vector<bool> seen(document_.count("nodes"));
+    std::vector<std::pair<std::size_t, dmat4>> pending;
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root) pending.push_back({*root, dmat4(1)});
+    while (!pending.empty()) {
+      const auto [index, parent] = pending.back();
+      pending.pop_back();
+      const json& node = document_.element("nodes", index);
+      if (seen[index]) document_.fail("damaged: node " + std::to_string(index) + " has two parents");
+      seen[index] = true;
+      world_[index] = parent * local_transform(node);
+      order_.push_back(index);
+      const json children = node.value("children", json::array());
+      for (auto child = children.rbegin(); child != children.rend(); ++child)
+        pending.push_back({child->get<std::size_t>(), world_[index]});
+    }
+  }
+
+  static dmat4 local_transform(const json& node) {
+    if (node.contains("matrix")) {
+      const auto m = node["matrix"].get<std::array<double, 16>>();
+      dmat4 result;
+      for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 4; ++r) result[c][r] = m[std::size_t(4 * c + r)];
+      return result;
+    }
+    const auto t = node.value("translation", std::array<double, 3>{0, 0, 0});
+    auto q = node.value("rotation", std::array<double, 4>{0, 0, 0, 1});
+    const auto s = node.value("scale", std::array<double, 3>{1, 1, 1});
+    const double length = std::sqrt(((q[0] * q[0] + q[1] * q[1]) + q[2] * q[2]) + q[3] * q[3]);
+    if (length > 0)
+      for (double& component : q) component /= length;
+    const double x = q[0], y = q[1], z = q[2], w = q[3];
+    dmat4 result(1);
+    result[0] = s[0] * dvec4(1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w), 0);
+    result[1] = s[1] * dvec4(2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w), 0);
+    result[2] = s[2] * dvec4(2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y), 0);
+    result[3] = dvec4(t[0], t[1], t[2], 1);
+    return result;
+  }
+
+  void read_mesh_node(std::size_t index) {
+    const json& node = document_.element("nodes", index);
+    const auto mesh_index = node["mesh"].get<std::size_t>();
+    const json& mesh = document_.element("meshes", mesh_index);
+    const json& primitives = mesh.at("primitives");
+    for (std::size_t p = 0; p < primitives.size(); ++p) {
+      const json& primitive = primitives[p];
+      ModelPart part;
+      part.name = "mesh " + std::to_string(mesh_index) + " '" + mesh.value("name", "") + "'";
+      if (primitives.size() > 1) part.name += " part " + std::to_string(p);
+      const int mode = int(gltf_number(primitive, "mode", 4));
+      if (mode < 4 || mode > 6) {
+        notes_.insert("points and lines are not drawn");
+        continue;
+      }
+      const json& attributes = primitive.at("attributes");
+      if (!attributes.contains("POSITION")) continue;
+      const int material = gltf_index(primitive, "material");
+      const Lookup lookup = use_material(material, part);
+      read_attributes(part, attributes, lookup);
+      read_triangles(part, primitive, mode);
+      if (primitive.contains("targets")) notes_.insert("morph targets are ignored");
+      if (node.contains("skin") && attributes.contains("JOINTS_0") && attributes.contains("WEIGHTS_0")) {
+        apply_skin(part, attributes, node["skin"].get<std::size_t>());
+      } else {
+        transform_part(part, world_[index]);
+      }
+      model_.parts.push_back(std::move(part));
+    }
+  }
+
+  GltfDocument::Numbers attribute(const ModelPart& part, const json& attributes, const char* name,
+                                  std::uint32_t components) {
+    GltfDocument::Numbers numbers = document_.numbers(attributes.at(name).get<std::size_t>());
+    if (numbers.components != components && !(components == 4 && numbers.components == 3))
+      document_.fail("damaged: " + part.name + " has " + name + " of " + std::to_string(numbers.components) +
+                     " components");
+    if (!part.positions.empty() && numbers.count() != part.positions.size())
+      document_.fail("damaged: " + part.name + " has " + std::to_string(part.positions.size()) + " positions but " +
+                     std::to_string(numbers.count()) + " of " + name);
+    return numbers;
+  }
+
+  void read_attributes(ModelPart& part, const json& attributes, const Lookup& lookup) {
+    const auto positions = attribute(part, attributes, "POSITION", 3);
+    for (std::size_t i = 0; i < positions.count(); ++i)
+      part.positions.emplace_back(positions.values[3 * i], positions.values[3 * i + 1], positions.values[3 * i + 2]);
+    if (attributes.contains("NORMAL")) {
+      const auto normals = attribute(part, attributes, "NORMAL", 3);
+      for (std::size_t i = 0; i < normals.count(); ++i)
+        part.normals.emplace_back(normals.values[3 * i], normals.values[3 * i + 1], normals.values[3 * i + 2]);
+    }
+    // A file's tangents belong to its first uvs as they are.
+    const bool moved = !lookup.same_place(Lookup{}) && lookup.texture >= 0;
+    if (attributes.contains("TANGENT") && attributes.contains("NORMAL") && !moved) {
+      const auto tangents = attribute(part, attributes, "TANGENT", 4);
+      for (std::size_t i = 0; i < tangents.count() && tangents.components == 4; ++i) {
+        const float* v = &tangents.values[4 * i];
+        part.tangents.emplace_back(v[0], v[1], v[2], v[3] < 0 ? -1.0f : 1.0f);
+      }
+    }
+    const std::string set = "TEXCOORD_" + std::to_string(lookup.uv_set);
+    if (attributes.contains(set)) {
+      const auto uvs = attribute(part, attributes, set.c_str(), 2);
+      const double c = portable::cos(lookup.rotation), s = portable::sin(lookup.rotation);
+      for (std::size_t i = 0; i < uvs.count(); ++i) {
+        double u = uvs.values[2 * i], v = uvs.values[2 * i + 1];
+        if (moved) {
+          const double su = u * lookup.scale_x, sv = v * lookup.scale_y;
+          u = (c * su + s * sv) + lookup.offset_x;
+          v = (c * sv - s * su) + lookup.offset_y;
+        }
+        part.uvs.emplace_back(u, 1 - v);  // glTF's v points down
+      }
+    }
+    if (attributes.contains("TEXCOORD_1")) {
+      const auto uvs = attribute(part, attributes, "TEXCOORD_1", 2);
+      for (std::size_t i = 0; i < uvs.count(); ++i)
+        part.lightmap_uvs.emplace_back(uvs.values[2 * i], 1 - double(uvs.values[2 * i + 1]));
+    }
+    if (attributes.contains("COLOR_0")) notes_.insert("vertex colours are ignored");
+  }
+
+  void read_triangles(ModelPart& part, const json& primitive, int mode) {
+    std::vector<std::uint32_t> list;
+    if (primitive.contains("indices")) {
+      list = document_.integers(primitive["indices"].get<std::size_t>());
+    } else {
+      for (std::uint32_t i = 0; i < part.positions.size(); ++i) list.push_back(i);
+    }
+    for (std::uint32_t i : list)
+      if (i >= part.positions.size())
+        document_.fail("damaged: " + part.name + " has " + std::to_string(part.positions.size()) +
+                       " vertices, but the index " + std::to_string(i));
+    if (mode == 4) {
+      list.resize(list.size() / 3 * 3);
+      part.indices = std::move(list);
+      return;
+    }
+    for (std::size_t i = 2; i < list.size(); ++i) {
+      if (mode == 6)
+        part.indices.insert(part.indices.end(), {list[0], list[i - 1], list[i]});
+      else if (i % 2 == 0)
+        part.indices.insert(part.indices.end(), {list[i - 2], list[i - 1], list[i]});
+      else
+        part.indices.insert(part.indices.end(), {list[i - 1], list[i - 2], list[i]});
+    }
+  }
+
+  // Vertices follow their joints as the file leaves them; the node's own transform does not count (3.7.3.3).
+  void apply_skin(ModelPart& part, const json& attributes, std::size_t skin_index) {
+    const json& skin = document_.element("skins", skin_index);
+    const auto joints = skin.at("joints").get<std::vector<std::size_t>>();
+    std::vector<dmat4> matrices;
+    GltfDocument::Numbers inverse_bind;
+    if (skin.contains("inverseBindMatrices"))
+      inverse_bind = document_.numbers(skin["inverseBindMatrices"].get<std::size_t>());
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      if (joints[j] >= world_.size())
+        document_.fail("damaged: skin " + std::to_string(skin_index) + " has no joint " + std::to_string(j));
+      dmat4 bind(1);
+      if (inverse_bind.components == 16 && j < inverse_bind.count())
+        for (int k = 0; k < 16; ++k) bind[k / 4][k % 4] = inverse_bind.values[16 * j + std::size_t(k)];
+      matrices.push_back(world_[joints[j]] * bind);
+    }
+    const auto which = document_.integers(attributes.at("JOINTS_0").get<std::size_t>());
+    const auto weights = attribute(part, attributes, "WEIGHTS_0", 4);
+    if (weights.components != 4 || which.size() != weights.values.size())
+      document_.fail("damaged: " + part.name + " has joints without weights");
+    for (std::size_t i = 0; i < part.positions.size(); ++i) {
+      dmat4 sum(0);
+      for (std::size_t k = 4 * i; k < 4 * i + 4; ++k) {
+        if (weights.values[k] == 0) continue;
+        if (which[k] >= matrices.size())
+          document_.fail("damaged: " + part.name + " follows joint " + std::to_string(which[k]));
+        sum += double(weights.values[k]) * matrices[which[k]];
+      }
+      ModelPart vertex;
+      vertex.positions = {part.positions[i]};
+      if (!part.normals.empty()) vertex.normals = {part.normals[i]};
+      if (!part.tangents.empty()) vertex.tangents = {part.tangents[i]};
+      transform_part(vertex, sum);
+      part.positions[i] = vertex.positions[0];
+      if (!part.normals.empty()) part.normals[i] = vertex.normals[0];
+      if (!part.tangents.empty()) part.tangents[i] = vertex.tangents[0];
+    }
+    notes_.insert("animations are ignored: skinned meshes are drawn at rest");
+  }
+
+  Lookup read_lookup(const json& owner, const char* key) {
+    Lookup lookup;
+    const auto found = owner.find(key);
+    if (found == owner.end()) return lookup;
+    lookup.texture = gltf_index(*found, "index");
+    lookup.uv_set = std::max(0, gltf_index(*found, "texCoord"));
+    if (const auto extensions = found->find("extensions"); extensions != found->end())
+      if (const auto transform = extensions->find("KHR_texture_transform"); transform != extensions->end()) {
+        const auto offset = transform->value("offset", std::array<double, 2>{0, 0});
+        const auto scale = transform->value("scale", std::array<double, 2>{1, 1});
+        lookup.offset_x = offset[0], lookup.offset_y = offset[1];
+        lookup.scale_x = scale[0], lookup.scale_y = scale[1];
+        lookup.rotation = gltf_number(*transform, "rotation", 0);
+        if (transform->contains("texCoord")) lookup.uv_set = std::max(0, gltf_index(*transform, "texCoord"));
+      }
+    if (const auto texture = lookup.texture; texture >= 0) {
+      const int sampler = gltf_index(document_.element("textures", std::size_t(texture)), "sampler");
+      if (sampler >= 0) {
+        const json& object = document_.element("samplers", std::size_t(sampler));
+        if (gltf_number(object, "wrapS", 10497) != 10497 || gltf_number(object, "wrapT", 10497) != 10497)
+          notes_.insert("textures that clamp or mirror at their edges are repeated instead");
+      }
+    }
+    return lookup;
+  }
+
+  // The part's material, added to the model on first use; how its images are looked up.
+  Lookup use_material(int index, ModelPart& part) {
+    if (const auto known = materials_.find(index); known != materials_.end()) {
+      part.material = known->second.first;
+      return known->second.second;
+    }
+    Material material;
+    material.name = "default";
+    material.albedo = glm::vec3(1);
+    Lookup albedo, normal;
+    double normal_scale = 1;
+    if (index >= 0) {
+      const json& object = document_.element("materials", std::size_t(index));
+      material.name = object.value("name", "material " + std::to_string(index));
+      const json extensions = object.value("extensions", json::object());
+      const json pbr = object.value("pbrMetallicRoughness", json::object());
+      const auto glossy = extensions.find("KHR_materials_pbrSpecularGlossiness");
+      const bool diffuse = glossy != extensions.end();
+      const json& base = diffuse ? *glossy : pbr;
+      const auto factor = base.value(diffuse ? "diffuseFactor" : "baseColorFactor", std::array<double, 4>{1, 1, 1, 1});
+      material.albedo = glm::vec3(factor[0], factor[1], factor[2]);
+      albedo = read_lookup(base, diffuse ? "diffuseTexture" : "baseColorTexture");
+      normal = read_lookup(object, "normalTexture");
+      if (normal.texture >= 0) normal_scale = gltf_number(object["normalTexture"], "scale", 1);
+      if (object.value("alphaMode", "OPAQUE") != "OPAQUE")
+        notes_.insert("transparent and cut-out materials are drawn opaque");
+      if (object.value("doubleSided", false))
+        notes_.insert("both sides of double-sided materials are lit as their front");
+    }
+    Lookup lookup = normal.texture >= 0 ? normal : albedo;
+    if (albedo.texture >= 0 && !albedo.same_place(lookup)) {
+      notes_.insert("material '" + material.name +
+                    "': albedo and normal map are placed differently; the albedo image is ignored");
+      albedo.texture = -1;
+    }
+    if (albedo.texture >= 0) material.albedo_image = use_image(albedo.texture, false, 1);
+    if (normal.texture >= 0) material.normal_image = use_image(normal.texture, true, normal_scale);
+    part.material = int(model_.materials.size());
+    model_.materials.push_back(material);
+    materials_[index] = {part.material, lookup};
+    return lookup;
+  }
+
+  int use_image(int texture, bool is_normal, double scale) {
+    const auto key =
+        std::make_tuple(gltf_index(document_.element("textures", std::size_t(texture)), "source"), is_normal, scale);
+    if (const auto known = images_.find(key); known != images_.end()) return known->second;
+    const GltfDocument::ImageSource source = document_.image_of_texture(std::size_t(texture));
+    const DecodedImage decoded =
+        source.file.empty() ? decode_image_memory(source.bytes, source.name) : decode_image_file(source.file);
+    model_.images.push_back(is_normal ? normal_image(decoded, scale) : albedo_image(decoded));
+    return images_[key] = int(model_.images.size()) - 1;
+  }
+
+  // The first perspective camera of the scene.
+  void read_camera(std::size_t node) {
+    const json& camera = document_.element("cameras", document_.element("nodes", node)["camera"].get<std::size_t>());
+    if (model_.camera || !camera.contains("perspective")) return;
+    const json& perspective = camera["perspective"];
+    const dmat4& world = world_[node];
+    Camera result;
+    result.eye = dvec3(world[3]);
+    result.target = result.eye - glm::normalize(dvec3(world[2]));
+    result.up = glm::normalize(dvec3(world[1]));
+    result.vertical_fov_degrees = gltf_number(perspective, "yfov", 1) * 180 / portable::kPi;
+    result.near_plane = gltf_number(perspective, "znear", 0.1);
+    result.far_plane = gltf_number(perspective, "zfar", result.near_plane * 10000);
+    if (!(result.vertical_fov_degrees > 0 && result.vertical_fov_degrees < 180 && result.near_plane > 0 &&
+          result.far_plane > result.near_plane))
+      document_.fail("damaged: the camera of node " + std::to_string(node) + " sees nothing");
+    model_.camera = result;
+  }
+
+  GltfDocument document_;
+  Model model_;
+  std::vector<dmat4> world_;        // of each node
+  std::vector<std::size_t> order_;  // nodes of the scene
+  std::map<int, std::pair<int, Lookup>> materials_;
+  std::map<std::tuple<int, bool, double>, int> images_;
+  std::set<std::string> notes_;
+};
+
+}  // namespace
+
+Model read_gltf_model(const std::string& path) { return Reader(path).read(); }
+
+}  // namespace twinshade

@@ -1,0 +1,17 @@
+// Models from files: glTF 2.0 and OBJ.
+#pragma once
+
+#include <string>
+
+#include "scenes/scene.h"
+
+namespace twinshade {
+
+// ".gltf", ".glb" or ".obj" in lower case; empty for any other ending.
+std::string model_file_ending(const std::string& path);
+
+// The file's triangles in world space with node transforms applied; UserError in one line for what cannot be read or
+// drawn.
+Scene load_model_file(const std::string& path);
+
+}  // namespace twinshade

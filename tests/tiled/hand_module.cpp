@@ -46,6 +46,17 @@ void built_ins(const ShaderData&, const ShadeCall& call) {
 }
 
 template <class R>
+void exact_values(const ShaderData&, const ShadeCall& call) {
+  for (std::uint32_t i = 0; i < call.count; ++i) {
+    component<R>(call.outputs, call, 0)[i] = component<R>(call.inputs, call, 0)[i];
+    component<R>(call.outputs, call, 1)[i] = component<R>(call.frag_coord, call, 2)[i];
+    component<R>(call.outputs, call, 2)[i] = component<R>(call.frag_coord, call, 3)[i];
+    component<R>(call.outputs, call, 3)[i] = R(call.front_facing[i] ? 1 : 0);
+    call.kept[i] = call.live[i];
+  }
+}
+
+template <class R>
 void discarding(const ShaderData& data, const ShadeCall& call) {
   echo<R>(data, call);
   for (std::uint32_t i = 0; i < call.count; ++i)
@@ -137,6 +148,15 @@ const ShaderModule& built_ins_module() {
     o.module.input_count = 2;
     o.module.input_components = 5;
     o.module.uses_frag_coord = o.module.uses_front_facing = o.module.uses_primitive_id = true;
+    return o;
+  }();
+  return owned.module;
+}
+
+const ShaderModule& exact_values_module() {
+  static const Owned owned = [] {
+    Owned o("exact_values", exact_values<float>, exact_values<double>);
+    o.module.uses_frag_coord = o.module.uses_front_facing = true;
     return o;
   }();
   return owned.module;

@@ -18,6 +18,9 @@ const ShaderModule& echo_module();
 // built-ins.
 const ShaderModule& built_ins_module();
 
+// in vec4 v_value; out vec4 (v_value.x, gl_FragCoord.z, gl_FragCoord.w, front facing).
+const ShaderModule& exact_values_module();
+
 // in vec4 v_value; discards where v_value.x < 0.5; out v_value.
 const ShaderModule& discard_module();
 

@@ -1,0 +1,115 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "base/file.h"
+#include "scenes/scene.h"
+#include "tests/scenes/image_writers.h"
+#include "tests/scenes/temporary_folder.h"
+
+using namespace twinshade;
+using glm::dvec3;
+
+namespace {
+
+const char* const kCube =
+    "mtllib cube.mtl\n"
+    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+    "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+    "usemtl red\nf 5/1 6/2 7/3 8/4\nf 2/1 1/2 4/3 3/4\n"
+    "usemtl map\nf 6/1 2/2 3/3 7/4\nf 1/1 5/2 8/3 4/4\nf 8/1 7/2 3/3 4/4\nf 1/1 2/2 6/3 5/4\n";
+const char* const kMaterials =
+    "newmtl red\nKd 0.8 0.1 0.05\n"
+    "newmtl map\nKd 1 1 1\nmap_Kd colour.png\nmap_Bump normal.png\n";
+
+bool has_note(const Scene& scene, const std::string& part) {
+  for (const std::string& note : scene.notes)
+    if (note.find(part) != std::string::npos) return true;
+  return false;
+}
+
+void write_maps(const TemporaryFolder& folder) {
+  write_image(folder.name("colour.png"), 2, 2, 3, std::vector<std::uint8_t>{0, 0, 0, 64, 0, 0, 128, 0, 0, 255, 0, 0});
+  write_image(folder.name("normal.png"), 2, 2, 3,
+              std::vector<std::uint8_t>{128, 128, 255, 128, 128, 255, 140, 128, 250, 120, 128, 250});
+}
+
+}  // namespace
+
+TEST_CASE("an OBJ cube: triangulated, materials and maps, flat faces at its right angles") {
+  TemporaryFolder folder;
+  write_maps(folder);
+  folder.write("cube.mtl", kMaterials);
+  const Scene scene = load_scene(folder.write("cube.obj", kCube));
+  CHECK(scene.triangle_count() == 12);
+  CHECK(scene.positions.size() == 24);  // four corners a face
+  REQUIRE(scene.materials.size() == 2);
+  CHECK(has_note(scene, "no normals"));
+  CHECK(has_note(scene, "per vertex"));
+  for (std::size_t t = 0; t < 12; ++t) {
+    const auto p = [&](std::size_t k) { return dvec3(scene.positions[scene.indices[3 * t + k]]); };
+    const dvec3 face = glm::normalize(glm::cross(p(1) - p(0), p(2) - p(0)));
+    CHECK(glm::dot(face, (p(0) + p(1) + p(2)) / 3.0 - dvec3(0.5)) > 0);
+    for (std::size_t k = 0; k < 3; ++k) {
+      CHECK(glm::length(dvec3(scene.normals[scene.indices[3 * t + k]]) - face) < 1e-6);
+      CHECK(scene.tangents[scene.indices[3 * t + k]].w == 1);
+    }
+    const Material& material = scene.materials[scene.triangle_materials[t]];
+    if (material.name == "red") {
+      CHECK(material.albedo == glm::vec3(0.8f, 0.1f, 0.05f));
+      CHECK(material.albedo_image == -1);
+    } else {
+      REQUIRE(material.albedo_image >= 0);
+      REQUIRE(material.normal_image >= 0);
+      CHECK(scene.images[std::size_t(material.albedo_image)].texels[4] == 1);  // lower right
+    }
+  }
+}
+
+TEST_CASE("an OBJ without normals is smooth where its faces meet at small angles") {
+  TemporaryFolder folder;
+  std::string text;
+  const int n = 24;
+  for (int i = 0; i < n; ++i)
+    for (int y = 0; y < 2; ++y)
+      text += "v " + std::to_string(std::cos(6.2831853 * i / n)) + " " + std::to_string(y) + " " +
+              std::to_string(-std::sin(6.2831853 * i / n)) + "\n";
+  for (int i = 0; i < n; ++i) {
+    const int a = 2 * i + 1, b = 2 * ((i + 1) % n) + 1;
+    text += "f " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(b + 1) + " " +
+            std::to_string(a + 1) + "\n";
+  }
+  const Scene scene = load_scene(folder.write("tube.obj", text));
+  CHECK(has_note(scene, "no UVs"));
+  for (std::size_t i = 0; i < scene.positions.size(); ++i) {
+    const dvec3 out(scene.positions[i].x, 0, scene.positions[i].z);
+    CHECK(glm::dot(dvec3(scene.normals[i]), out) > 0.99);
+  }
+}
+
+TEST_CASE("what is missing from an OBJ is said or refused") {
+  TemporaryFolder folder;
+  const Scene plain = load_scene(folder.write("cube.obj", kCube));
+  CHECK(plain.triangle_count() == 12);
+  CHECK(has_note(plain, "cube.mtl is missing"));
+  folder.write("cube.mtl", kMaterials);
+  CHECK(user_error([&] { load_scene(folder.name("cube.obj")); }).find("colour.png") != std::string::npos);
+  write_maps(folder);
+  const std::string image = read_file(folder.name("colour.png"));
+  folder.write("colour.png", image.substr(0, image.size() / 2));
+  CHECK(user_error([&] { load_scene(folder.name("cube.obj")); }).find("colour.png") != std::string::npos);
+  write_maps(folder);
+  write_image(folder.name("normal.png"), 2, 2, 3, std::vector<std::uint8_t>(12, 90));
+  CHECK(has_note(load_scene(folder.name("cube.obj")), "height field"));
+
+  for (const char* text : {"", "hello\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n",
+                           "v 0 0 0\nv 1 0 0\nv nan 1 0\nf 1 2 3\n"}) {
+    const std::string message = user_error([&] { load_scene(folder.write("bad.obj", text)); });
+    INFO(text << " -> " << message);
+    CHECK(message.find("bad.obj") != std::string::npos);
+    CHECK(message.find('\n') == std::string::npos);
+  }
+  CHECK(user_error([&] { load_scene(folder.name("none.obj")); }).find("none.obj") != std::string::npos);
+  CHECK(user_error([&] { load_scene(folder.name("cube.obj"), 1000); }).find("--triangles") != std::string::npos);
+  CHECK(user_error([&] { load_scene(folder.name("cube.fbx")); }).find(".gltf, .glb or .obj") != std::string::npos);
+}

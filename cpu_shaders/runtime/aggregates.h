@@ -103,7 +103,7 @@ struct vec : detail::Components<T, n> {
   static constexpr int size = n;
 
   vec() = default;
-  TWINSHADE_INLINE constexpr explicit vec(const T& x) : vec(Splat{}, x, detail::Indices<n>()) {}
+  TWINSHADE_INLINE constexpr explicit vec(const T& value) : vec(Splat{}, value, detail::Indices<n>()) {}
   // From scalars and vectors, n components altogether.
   template <LaneOrVec... A>
   requires(sizeof...(A) > 1 && (detail::Shape<A>::count + ...) == n) TWINSHADE_INLINE constexpr vec(const A&... parts)
@@ -149,8 +149,8 @@ struct vec : detail::Components<T, n> {
   struct Splat {};
   struct Parts {};
   template <int... k>
-  TWINSHADE_INLINE constexpr vec(Splat, const T& x, std::integer_sequence<int, k...>)
-      : detail::Components<T, n>{(static_cast<void>(k), x)...} {}
+  TWINSHADE_INLINE constexpr vec(Splat, const T& value, std::integer_sequence<int, k...>)
+      : detail::Components<T, n>{(static_cast<void>(k), value)...} {}
   template <int... k, class... A>
   TWINSHADE_INLINE constexpr vec(Parts, std::integer_sequence<int, k...>, const A&... parts)
       : detail::Components<T, n>{static_cast<T>(detail::nth<k>(parts...))...} {}

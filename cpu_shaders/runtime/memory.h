@@ -85,6 +85,13 @@ TWINSHADE_INLINE void store(const M& m, const BufferView& view, const Offset& of
   }
 }
 
+// Elements of a runtime-sized array, `stride` bytes each, that starts at `first_byte`.
+TWINSHADE_INLINE Plain<std::uint32_t, 1> array_length(const BufferView& view, std::uint32_t first_byte,
+                                                      std::uint32_t stride) {
+  const std::size_t bytes = view.size > first_byte ? view.size - first_byte : 0;
+  return Plain<std::uint32_t, 1>(static_cast<std::uint32_t>(bytes / stride));
+}
+
 namespace memory {
 
 // One read-modify-write per active lane of the mask, in lane order; gives what was there before.

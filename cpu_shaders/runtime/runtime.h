@@ -13,5 +13,6 @@
 #include "cpu_shaders/runtime/invocation.h"
 #include "cpu_shaders/runtime/memory.h"
 #include "cpu_shaders/runtime/numbers.h"
+#include "cpu_shaders/runtime/served.h"
 #include "cpu_shaders/runtime/table.h"
 #include "cpu_shaders/runtime/texture.h"

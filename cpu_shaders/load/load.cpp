@@ -25,6 +25,12 @@ std::pair<Isa, Number> target_of(Number number, std::optional<Isa> isa) {
   return {Isa::baseline, number};
 }
 
+bool has_entry(const ShaderModule& module, Isa isa, Number number) {
+  for (std::uint32_t i = 0; i < module.entry_count; ++i)
+    if (module.entries[i].isa == isa && module.entries[i].number == number) return true;
+  return false;
+}
+
 const ShaderModule& open_module(const std::string& path) {
   void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (!library) throw UserError(path + ": compiled shader cannot be loaded: " + dlerror());
@@ -41,11 +47,12 @@ const ShaderModule& load_module(const ShaderSource& source, Number number, std::
   if (isa && *isa > machine)
     throw UserError(std::string("this processor has no ") + kIsaNames[int(*isa)] + ": the best it has is " +
                     kIsaNames[int(machine)]);
-  if (const ShaderModule* builtin = find_builtin_module(source)) return *builtin;
+  const auto [build_isa, build_number] = target_of(number, isa);
+  if (const ShaderModule* builtin = find_builtin_module(source); builtin && has_entry(*builtin, build_isa, build_number))
+    return *builtin;
 
   static std::mutex mutex;
   static std::map<std::tuple<std::string, Isa, Number>, const ShaderModule*> loaded;
-  const auto [build_isa, build_number] = target_of(number, isa);
   const std::lock_guard lock(mutex);
   const ShaderModule*& module = loaded[{source_hash(source), build_isa, build_number}];
   if (!module) {

@@ -10,9 +10,9 @@
 
 namespace twinshade {
 
-// A module that has code for `number`, for instruction sets up to `isa` (unset: this machine's best). Built-in where the source's
-// hash is that of a built-in shader, so a changed shader never gets stale code. The reference stays valid until the
-// process ends. Safe from several threads and processes.
+// A module that has code for `number`, for instruction sets up to `isa` (unset: this machine's best). Built-in where the
+// source's hash is that of a built-in shader, so a changed shader never gets stale code, and where the binary holds the number
+// type asked for: 8 and 16 lanes on registers of 4 are compiled on demand. The reference stays valid until the process ends. Safe from several threads and processes.
 // UserError: GLSL that is wrong or not supported (file and line), an instruction set that the machine lacks, no compiler.
 const ShaderModule& load_module(const ShaderSource& source, Number number, std::optional<Isa> isa = {});
 

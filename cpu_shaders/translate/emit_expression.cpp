@@ -42,26 +42,29 @@ std::string FunctionEmitter::text(Id id, int most) {
   return e.precedence > most ? "(" + e.text + ")" : e.text;
 }
 
-void FunctionEmitter::define(const Instruction& i, Expression e, bool statement) {
+void FunctionEmitter::define(const Instruction& i, Expression e) {
   const auto found = info_.uses.find(i.result);
   const int uses = found == info_.uses.end() ? 0 : found->second;
   if (uses == 0) {
-    if (statement) out_.line(e.text + ";");
+    if (e.reads.count(kEffects)) {
+      position(i.file, i.line);
+      out_.line(e.text + ";");
+    }
     return;
   }
   // Names, constants and inputs may be written again and again.
   const bool trivial =
       e.reads.empty() && e.precedence <= 1 && e.text.find(' ') == std::string::npos && e.text.size() < 32;
-  if (!statement && uses > 1 && trivial) {
+  if (uses > 1 && trivial) {
     values_[i.result] = std::move(e);
     return;
   }
-  pending_.push_back({i.result, std::move(e)});
-  if (statement || uses > 1) {
+  Pending pending{i.result, std::move(e)};
+  if (uses > 1) {
     position(i.file, i.line);
-    Pending own = std::move(pending_.back());
-    pending_.pop_back();
-    materialise(own);
+    materialise(pending);
+  } else {
+    pending_.push_back(std::move(pending));
   }
 }
 
@@ -84,12 +87,16 @@ void FunctionEmitter::before_write(Id root) {
   std::vector<Pending> all;
   all.swap(pending_);
   for (Pending& p : all) {
-    if (p.expression.reads.count(root))
+    const auto& reads = p.expression.reads;
+    if (reads.count(root) || reads.count(kEffects)) {
       materialise(p);
-    else
+    } else {
       pending_.push_back(std::move(p));
+    }
   }
 }
+
+void FunctionEmitter::settle_effects() { before_write(kEffects); }
 
 Expression FunctionEmitter::binary(const Instruction& i, const char* op, int precedence) {
   const Expression left = value(i.operands[0]), right = value(i.operands[1]);
@@ -196,6 +203,7 @@ Expression FunctionEmitter::select(const Instruction& i) {
 }
 
 void FunctionEmitter::call(const Instruction& i) {
+  settle_effects();
   const Instance& callee = *at_.callees.at(&i);
   const FunctionInfo& info = *callee.info;
   std::vector<std::string> arguments;
@@ -229,11 +237,8 @@ void FunctionEmitter::call(const Instruction& i) {
   if (info.writes_buffers) before_write(kBuffers);
   for (std::size_t k = 0; k + 1 < i.operands.size(); ++k)
     if (info.is_reference(k)) before_write(root_of(info_, i.operands[k + 1]));
-  position(i.file, i.line);
-  if (module_.type(i.type).kind == Kind::none)
-    out_.line(e.text + ";");
-  else
-    define(i, std::move(e), true);
+  e.reads.insert(kEffects);
+  define(i, std::move(e));
 }
 
 void FunctionEmitter::instruction(const Instruction& i) {
@@ -248,13 +253,19 @@ void FunctionEmitter::instruction(const Instruction& i) {
         values_[i.result] = load(place(i.operands[0]));
         return;
       }
-      return define(i, load(place(i.operands[0])));
+      {
+        const Place p = place(i.operands[0]);
+        const bool immutable = p.base.reads.empty() && p.buffer == nullptr;
+        if (!immutable) settle_effects();
+        return define(i, load(p));
+      }
     case spv::OpStore:
       return store(i);
     case spv::OpFunctionCall:
       return call(i);
     case spv::OpExtInst:
       if (i.operands[1] == 35) {  // modf(x, whole) is whole = trunc(x), x - whole, as in Mesa
+        settle_effects();
         const Id x = i.operands[2];
         Pending whole{x, value(x)};
         position(i.file, i.line);

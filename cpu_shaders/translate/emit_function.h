@@ -33,6 +33,8 @@ struct Expression {
 
 // Stands for the contents of all buffers in Expression::reads.
 inline constexpr Id kBuffers = ~0u;
+// Marks an expression that changes something: it is written before anything else that reads or writes.
+inline constexpr Id kEffects = ~0u - 1;
 
 class FunctionEmitter {
  public:
@@ -48,10 +50,11 @@ class FunctionEmitter {
   Expression value(Id id);            // consumes a pending value
   std::string text(Id id, int most);  // in parentheses where it binds less tightly than `most`
   std::string argument(Id id) { return text(id, 17); }
-  void define(const Instruction& i, Expression e, bool statement = false);
+  void define(const Instruction& i, Expression e);
   void materialise(Pending& pending);
   void flush();                // gives every pending value a name
-  void before_write(Id root);  // ... those that read `root`
+  void before_write(Id root);  // ... those that read `root` or have effects
+  void settle_effects();       // ... those that have effects
   void instruction(const Instruction& i);
   bool arithmetic(const Instruction& i);
   bool texture(const Instruction& i);
@@ -120,6 +123,7 @@ class FunctionEmitter {
   void code(const Statement& s);
   void choice(const Statement& s);
   void masked_choice(const Statement& s);
+  bool departing_arm(const Statement& s, const Expression& condition);
   void leave(const Statement& s);
   void give_back(const Statement& s);
   bool skip_rest(const Statement& s, const Statement* owner);

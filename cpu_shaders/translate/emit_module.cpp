@@ -314,10 +314,11 @@ class ModuleEmitter {
 
   void write_functions() {
     std::vector<const Instance*> order(instances_.callees_first.begin(), instances_.callees_first.end());
-    std::stable_sort(order.begin(), order.end(), [&](const Instance* a, const Instance* b) {
-      const auto key = [&](const Instance* i) { return std::pair(i->info->function->id == module_.entry, 0); };
-      return key(a) < key(b);
-    });
+    const auto place = [&](const Instance* i) {
+      return lines_.order(module_.position(i->info->function->file, i->info->function->line));
+    };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](const Instance* a, const Instance* b) { return place(a) < place(b); });
     for (const Instance* i : order) {
       shared_.out.line("");
       FunctionEmitter(shared_, *i).run();

@@ -168,6 +168,7 @@ void FunctionEmitter::store(const Instruction& i) {
   const bool declaring = regions_.declaring_stores.count(&i) != 0;
   if (declaring) {
     const Expression v = value(i.operands[1]);
+    settle_effects();
     position(i.file, i.line);
     const std::string type = types_.name(module_.variables.at(root).type, at_.is_varying(root));
     const std::string name = declare(root, module_.name(root));
@@ -390,11 +391,11 @@ void FunctionEmitter::atomic(const Instruction& i) {
   std::string arguments = narrowed("kept", 1) + ", " + p.base.text + ", " + offset_of(p).text();
   if (compares) arguments += ", " + value(i.operands[5]).text;
   before_write(kBuffers);
-  position(i.file, i.line);
   Expression e;
+  e.reads = {kEffects};
   e.text = std::string(function) + "(" + arguments + ", " + operand.text + ")";
   e.precedence = 1;
-  define(i, e, true);
+  define(i, e);
 }
 
 }  // namespace twinshade::spirv

@@ -256,6 +256,7 @@ void FunctionEmitter::masked_choice(const Statement& s) {
   Expression condition = value(s.condition);
   flush();
   position(s.file, s.line);
+  if (departing_arm(s, condition)) return;
   const bool both = !s.then_list.empty() && !s.else_list.empty();
   if (both && (condition.precedence > 1 || condition.text.find('(') != std::string::npos || !condition.reads.empty())) {
     const std::string name = names_.declare("c" + std::to_string(++temporary_count_));
@@ -277,6 +278,35 @@ void FunctionEmitter::masked_choice(const Statement& s) {
   arm(s.else_list, narrowed(condition.precedence > 1 ? "!(" + condition.text + ")" : "!" + condition.text, 3));
 }
 
+// if (c) break;  and its like: the lanes of the condition leave, without a mask of their own.
+bool FunctionEmitter::departing_arm(const Statement& s, const Expression& condition) {
+  const List& arm = s.then_list.empty() ? s.else_list : s.then_list;
+  if ((!s.then_list.empty() && !s.else_list.empty()) || arm.size() != 1) return false;
+  const Statement& only = *arm[0];
+  const bool jump = only.shape == Shape::leave_loop || only.shape == Shape::next_iteration ||
+                    only.shape == Shape::leave_cases || (only.shape == Shape::give_back && only.value == 0) ||
+                    only.shape == Shape::discard;
+  if (!jump) return false;
+  const bool inverted = s.then_list.empty();
+  const std::string test =
+      inverted ? (condition.precedence > 1 ? "!(" + condition.text + ")" : "!" + condition.text) : condition.text;
+  const std::string gone = narrowed(test, inverted ? 3 : condition.precedence);
+  if (only.shape == Shape::discard) {
+    out_.line("leave(" + gone + ", kept);");
+    return true;
+  }
+  std::string left;
+  for (std::size_t k = masks_.size(); k-- > 0;) {
+    const Mask& m = masks_[k];
+    const bool at_target = only.shape != Shape::give_back && m.construct == only.target;
+    if (at_target && only.shape == Shape::next_iteration && !m.iteration) break;
+    left += ", " + m.name;
+    if (at_target && !(m.iteration && only.shape == Shape::leave_loop)) break;
+  }
+  out_.line("leave(" + gone + left + ");");
+  return true;
+}
+
 // break and continue
 void FunctionEmitter::leave(const Statement& s) {
   const bool through_masks = at_.divergent.count(s.id) || (s.shape == Shape::leave_cases && at_.is_masked(*s.target));
@@ -284,19 +314,20 @@ void FunctionEmitter::leave(const Statement& s) {
     out_.line(s.shape == Shape::next_iteration ? "continue;" : "break;");
     return;
   }
-  // From the innermost mask to the target's, which a `continue` keeps.
-  std::string left;
+  // From the innermost mask to the target's, which a `continue` keeps. The lanes' own mask is emptied last.
+  std::string left, own;
   for (std::size_t k = masks_.size(); k-- > 0;) {
     const Mask& m = masks_[k];
     const bool at_target = m.construct == s.target;
     if (at_target && s.shape == Shape::next_iteration && !m.iteration) break;
     // The current mask matters no more if nothing can follow under it.
     const bool innermost = k + 1 == masks_.size();
-    if (!innermost || m.uniform_depth > 0 || at_target) left += ", " + m.name;
+    if (!innermost) left += ", " + m.name;
+    if (innermost && (m.uniform_depth > 0 || at_target)) own = ", " + m.name;
     const bool has_outer = at_target && m.iteration && s.shape == Shape::leave_loop;
     if (at_target && !has_outer) break;
   }
-  out_.line("leave(" + mask() + left + ");");
+  out_.line("leave(" + mask() + left + own + ");");
 }
 
 void FunctionEmitter::give_back(const Statement& s) {
@@ -308,12 +339,13 @@ void FunctionEmitter::give_back(const Statement& s) {
     } else {
       position(s.file, s.line);
     }
-    std::string left;
+    std::string left, own;
     for (std::size_t k = masks_.size(); k-- > 0;) {
       const bool innermost = k + 1 == masks_.size();
-      if (!innermost || masks_[k].uniform_depth > 0 || k == 0) left += ", " + masks_[k].name;
+      if (!innermost) left += ", " + masks_[k].name;
+      if (innermost && (masks_[k].uniform_depth > 0 || k == 0)) own = ", " + masks_[k].name;
     }
-    out_.line("leave(" + mask() + left + ");");
+    out_.line("leave(" + mask() + left + own + ");");
     return;
   }
   if (s.value == 0) {

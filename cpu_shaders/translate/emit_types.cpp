@@ -73,6 +73,7 @@ std::string TypeNames::name(Id id, bool varying) {
       return "arr<" + name(t.element, varying) + ", " + std::to_string(t.count) + ">";
     case Kind::structure:
       declare_structure(id);
+      if (!varying) need_uniform(id);
       return (varying ? "" : "uniform_") + structures_.at(id);
     case Kind::sampler: {
       const Type& image = module_.type(t.element);
@@ -160,57 +161,71 @@ void TypeNames::write_declarations(Writer& out) const {
     else
       out.line("using " + alias + " = vec<" + scalar + ", " + size + ">;");
   }
-  if (!structure_order_.empty()) {
-    out.line("struct Varying {");
-    out.line("  using F = typename N::F; using I = typename N::I; using U = typename N::U; using B = typename N::B;");
-    out.line("};");
-    out.line("struct Uniform {");
-    out.line(
-        "  using F = typename N::UF; using I = typename N::UI; using U = typename N::UU; using B = typename N::UB;");
-    out.line("};");
-  }
-  for (Id id : structure_order_) {
-    const Type& t = module_.type(id);
-    const std::string& own = structures_.at(id);
-    std::string copies, selects;
-    out.line("");
-    out.line("template <class K>");
-    out.open("struct " + own + "_of {");
-    for (std::uint32_t k = 0; k < t.members.size(); ++k) {
-      std::string type, close;
-      Id at = t.members[k];
-      for (; module_.type(at).kind == Kind::array; at = module_.type(at).element) {
-        type += "arr<";
-        close.insert(0, ", " + std::to_string(module_.type(at).count) + ">");
-      }
-      const Type& leaf = module_.type(at);
-      if (leaf.kind == Kind::structure) {
-        type += structures_.at(at) + "_of<K>";
-      } else if (leaf.kind == Kind::matrix) {
-        type += "mat<typename K::F, " + std::to_string(leaf.count) + ", " +
-                std::to_string(module_.type(leaf.element).count) + ">";
-      } else if (leaf.kind == Kind::vector) {
-        type += "vec<typename K::" + scalar_letter(module_.type(leaf.element).kind) + ", " +
-                std::to_string(leaf.count) + ">";
-      } else {
-        type += "typename K::" + scalar_letter(leaf.kind);
-      }
-      const std::string& member = members_.at({id, k});
-      out.line(type + close + " " + member + ";");
-      const std::string comma = k == 0 ? "" : ", ";
-      copies += comma + member;
-      selects += comma + "select(mask, a." + member + ", b." + member + ")";
+  if (!uniform_structures_.empty()) {
+    for (const char* twin : {"Varying", "Uniform"}) {
+      const std::string prefix = twin[0] == 'U' ? "U" : "";
+      out.open(std::string("struct ") + twin + " {");
+      for (const char* scalar : {"F", "I", "U", "B"})
+        out.line(std::string("using ") + scalar + " = typename N::" + prefix + scalar + ";");
+      out.close("};");
     }
+  }
+  for (Id id : structure_order_) write_structure(out, id);
+}
+
+void TypeNames::need_uniform(Id id) {
+  const Type& t = module_.type(id);
+  if (t.kind == Kind::array) return need_uniform(t.element);
+  if (t.kind != Kind::structure || !uniform_structures_.insert(id).second) return;
+  for (Id member_type : t.members) need_uniform(member_type);
+}
+
+// The type of a member, K being Varying or Uniform in a structure that occurs as both.
+std::string TypeNames::member_type(Id id, bool both) const {
+  const Type& t = module_.type(id);
+  const std::string k = both ? "typename K::" : "";
+  switch (t.kind) {
+    case Kind::array:
+      return "arr<" + member_type(t.element, both) + ", " + std::to_string(t.count) + ">";
+    case Kind::structure:
+      return structures_.at(id) + (both ? "_of<K>" : "");
+    case Kind::matrix:
+      return "mat<" + k + "F, " + std::to_string(t.count) + ", " + std::to_string(module_.type(t.element).count) + ">";
+    case Kind::vector:
+      return "vec<" + k + scalar_letter(module_.type(t.element).kind) + ", " + std::to_string(t.count) + ">";
+    default:
+      return k + scalar_letter(t.kind);
+  }
+}
+
+void TypeNames::write_structure(Writer& out, Id id) const {
+  const Type& t = module_.type(id);
+  const bool both = uniform_structures_.count(id) != 0;
+  const std::string& name = structures_.at(id);
+  const std::string own = both ? name + "_of" : name;
+  std::string copies, selects;
+  out.line("");
+  if (both) out.line("template <class K>");
+  out.open("struct " + own + " {");
+  for (std::uint32_t k = 0; k < t.members.size(); ++k) {
+    const std::string& member = members_.at({id, k});
+    out.line(member_type(t.members[k], both) + " " + member + ";");
+    const std::string comma = k == 0 ? "" : ", ";
+    copies += comma + member;
+    selects += comma + "select(mask, a." + member + ", b." + member + ")";
+  }
+  if (both) {
     out.line("template <class V>");
     out.line("  requires(!std::same_as<K, V>)");
-    out.line("TWINSHADE_INLINE constexpr operator " + own + "_of<V>() const { return {" + copies + "}; }");
-    out.line("friend TWINSHADE_INLINE " + own + "_of select(const B& mask, const " + own + "_of& a, const " + own +
-             "_of& b) {");
-    out.line("  return {" + selects + "};");
-    out.line("}");
-    out.close("};");
-    out.line("using " + own + " = " + own + "_of<Varying>;");
-    out.line("using uniform_" + own + " = " + own + "_of<Uniform>;");
+    out.line("TWINSHADE_INLINE constexpr operator " + own + "<V>() const { return {" + copies + "}; }");
+  }
+  out.open("friend TWINSHADE_INLINE " + own + " select(const B& mask, const " + own + "& a, const " + own + "& b) {");
+  out.line("return {" + selects + "};");
+  out.close("}");
+  out.close("};");
+  if (both) {
+    out.line("using " + name + " = " + own + "<Varying>;");
+    out.line("using uniform_" + name + " = " + own + "<Uniform>;");
   }
 }
 

@@ -24,12 +24,16 @@ class TypeNames {
 
  private:
   void declare_structure(Id type);
+  void need_uniform(Id type);
+  std::string member_type(Id id, bool both) const;
+  void write_structure(Writer& out, Id id) const;
 
   const Module& module_;
   NameTable& names_;
   std::set<std::string> aliases_;
   std::map<Id, std::string> structures_;
   std::vector<Id> structure_order_;
+  std::set<Id> uniform_structures_;  // those that also occur with uniform members
   std::map<std::pair<Id, std::uint32_t>, std::string> members_;
 };
 

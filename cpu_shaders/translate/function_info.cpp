@@ -29,8 +29,10 @@ class Gatherer {
         if (id != 0) ++info_.uses[id];
       for (const Instruction& i : s.code) instruction(i);
       if (s.shape == Shape::discard) info_.discards = true;
+      if (s.shape != Shape::code && s.shape != Shape::give_back) info_.mask_matters = true;
     });
     constant_tables();
+    if (!info_.globals_written.empty() || info_.writes_buffers) info_.mask_matters = true;
   }
 
  private:
@@ -108,6 +110,7 @@ class Gatherer {
     const FunctionInfo& callee = program_.info(i.operands[0]);
     info_.globals_read.insert(callee.globals_read.begin(), callee.globals_read.end());
     info_.globals_written.insert(callee.globals_written.begin(), callee.globals_written.end());
+    info_.mask_matters |= callee.mask_matters;
     info_.discards |= callee.discards;
     info_.writes_buffers |= callee.writes_buffers;
     info_.reads_buffers |= callee.reads_buffers;

@@ -27,7 +27,7 @@ class Analysis {
     for (;;) {
       result_ = Instances{};
       result_.varying_globals = globals;
-      result_.main = &instance(module_.entry, {});
+      result_.main = &instance(module_.entry, {}, true);
       if (result_.varying_globals == globals) break;
       globals = result_.varying_globals;
     }
@@ -43,12 +43,13 @@ class Analysis {
     result_.callees_first.push_back(&at);
   }
 
-  Instance& instance(Id function, const std::vector<bool>& varying_in) {
-    auto& slot = result_.all[{function, varying_in}];
+  Instance& instance(Id function, const std::vector<bool>& varying_in, bool whole) {
+    auto& slot = result_.all[{function, varying_in, whole}];
     if (slot) return *slot;
     auto fresh = std::make_unique<Instance>();
     fresh->info = &program_.info(function);
     fresh->varying_in = varying_in;
+    fresh->whole = whole;
     Walker(*this, *fresh).run();
     slot = std::move(fresh);
     return *slot;
@@ -57,11 +58,7 @@ class Analysis {
   class Walker {
    public:
     Walker(Analysis& analysis, Instance& at)
-        : analysis_(analysis),
-          module_(analysis.module_),
-          info_(*at.info),
-          at_(at),
-          is_main_(info_.function->id == module_.entry) {}
+        : analysis_(analysis), module_(analysis.module_), info_(*at.info), at_(at) {}
 
     void run() {
       const auto& parameters = info_.function->parameters;
@@ -76,7 +73,7 @@ class Analysis {
       } while (changed_);
       for (const Parameter& p : parameters) at_.varying_out.push_back(at_.is_varying(p.id));
       if (!at_.masked.empty()) at_.needs_mask = true;
-      if (is_main_) at_.needs_mask = false;
+      if (at_.whole) at_.needs_mask = false;
     }
 
    private:
@@ -245,9 +242,9 @@ class Analysis {
         if (partial) at_.partial.insert(&i);
         if (partial || varies) mark(root);
       } else {
-        const bool partial = !is_main_ || masked_within(nullptr) || at_.divergent_return;
+        const bool partial = !at_.whole || masked_within(nullptr) || at_.divergent_return;
         if (partial) at_.partial.insert(&i);
-        if (!is_main_) at_.needs_mask = true;
+        at_.needs_mask = true;
         if (storage == spv::StorageClassPrivate && (partial || varies))
           changed_ |= analysis_.result_.varying_globals.insert(root).second;
       }
@@ -257,7 +254,8 @@ class Analysis {
       const FunctionInfo& callee_info = analysis_.program_.info(i.operands[0]);
       std::vector<bool> varying_in;
       for (std::size_t k = 1; k < i.operands.size(); ++k) varying_in.push_back(varying(i.operands[k]));
-      Instance& callee = analysis_.instance(i.operands[0], varying_in);
+      const bool whole = at_.whole && !masked_within(nullptr) && !at_.divergent_return;
+      Instance& callee = analysis_.instance(i.operands[0], varying_in, whole || !callee_info.mask_matters);
       at_.callees[&i] = &callee;
       if (callee.needs_mask) at_.needs_mask = true;
       if (callee.result_varying) mark(i.result);
@@ -313,7 +311,6 @@ class Analysis {
     const Module& module_;
     const FunctionInfo& info_;
     Instance& at_;
-    const bool is_main_;
     bool changed_ = false;
     std::vector<Frame> frames_;
   };

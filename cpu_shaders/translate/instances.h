@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <tuple>
 
 #include "cpu_shaders/translate/function_info.h"
 
@@ -12,6 +13,7 @@ struct Instance {
   const FunctionInfo* info = nullptr;
   std::string name;  // in C++
 
+  bool whole = false;                         // all lanes run when it is called
   std::vector<bool> varying_in, varying_out;  // parameters: the value, or what the pointer points to, before and after
   bool result_varying = false;
 
@@ -30,7 +32,8 @@ struct Instance {
 };
 
 struct Instances {
-  std::map<std::pair<Id, std::vector<bool>>, std::unique_ptr<Instance>> all;
+  // By function, varying parameters and `whole`.
+  std::map<std::tuple<Id, std::vector<bool>, bool>, std::unique_ptr<Instance>> all;
   std::set<Id> varying_globals;  // private variables
   Instance* main = nullptr;
   std::vector<Instance*> callees_first;

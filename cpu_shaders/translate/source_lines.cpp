@@ -48,6 +48,11 @@ const std::string& SourceLines::text(const std::string& file, int line) const {
   return found == index_.end() ? none : lines_[found->second].text;
 }
 
+std::size_t SourceLines::order(const spirv::Position& position) const {
+  const auto found = index_.find({position.file, position.line});
+  return found == index_.end() ? lines_.size() : found->second;
+}
+
 spirv::Position SourceLines::declaration(const std::string& name) const {
   const Line* mention = nullptr;
   for (const Line& line : lines_) {

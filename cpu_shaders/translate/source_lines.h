@@ -16,6 +16,9 @@ class SourceLines {
   // Trimmed text of a line; empty where there is none.
   const std::string& text(const std::string& file, int line) const;
 
+  // Position of a line in the whole text.
+  std::size_t order(const spirv::Position& position) const;
+
   // Where `name` is first declared as a global: the line that has it as a word and begins with a qualifier or continues
   // such a declaration. SPIR-V gives global variables no position.
   spirv::Position declaration(const std::string& name) const;

@@ -12,8 +12,10 @@ std::size_t break_before(const std::string& text, std::size_t most) {
   int depth = 0, best_depth = 0;
   for (std::size_t k = 0; k < text.size() && k <= most; ++k) {
     const char c = text[k];
-    if (c == '(' || c == '{' || c == '[') ++depth;
-    if (c == ')' || c == '}' || c == ']') --depth;
+    // Operators < and > have spaces around them, template arguments do not.
+    const bool after_space = k > 0 && text[k - 1] == ' ';
+    if (c == '(' || c == '{' || c == '[' || (c == '<' && !after_space)) ++depth;
+    if (c == ')' || c == '}' || c == ']' || (c == '>' && !after_space)) --depth;
     // The first third of a line is too little to break after, unless there is nothing else.
     const bool early = k < most / 3;
     if (c == ' ' && k > 0 && text[k - 1] != '<' &&

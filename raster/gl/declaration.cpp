@@ -62,7 +62,7 @@ class Splitter {
   bool at_word() const { return at_ < tokens_.size() && tokens_[at_].kind == TokenKind::word; }
 
   [[noreturn]] void fail(std::size_t token, const std::string& what) const {
-    throw UserError(position(source_, tokens_[token]) + what);
+    throw UserError(position(source_, tokens_[std::min(token, tokens_.size() - 1)]) + what);
   }
 
   // From an opening bracket to behind the one that closes it.

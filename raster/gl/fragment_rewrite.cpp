@@ -62,7 +62,7 @@ class Rewriter {
       }
       if (d.kind == Declaration::Kind::block && output)
         fail(d.type, "an interface block cannot be a fragment shader's output");
-      if (d.kind != Declaration::Kind::variables) continue;
+      if (d.kind != Declaration::Kind::variables || d.declarators.empty()) continue;
       if (input)
         inputs(d);
       else if (output)

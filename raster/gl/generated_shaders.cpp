@@ -120,8 +120,8 @@ std::string ShaderGenerator::fill() const {
     text +=
         "  int twinshade_v[3];\n  vec4 twinshade_p[3];\n"
         "  for (int k = 0; k < 3; ++k) {\n"
-        "    twinshade_v[k] = int(texelFetch(twinshade_indices, twinshade_PrimitiveID * 3 + k).x);\n"
-        "    twinshade_p[k] = uintBitsToFloat(texelFetch(twinshade_positions, twinshade_v[k]));\n"
+        "    twinshade_v[k] = int(twinshade_index(twinshade_PrimitiveID * 3 + k));\n"
+        "    twinshade_p[k] = uintBitsToFloat(twinshade_position(uint(twinshade_v[k])));\n"
         "  }\n"
         "  precise vec2 twinshade_ndc = gl_FragCoord.xy * twinshade_ndc_scale - 1.0;\n"
         "  twinshade_ExactBarycentrics twinshade_b =\n"
@@ -159,9 +159,16 @@ std::string ShaderGenerator::fill() const {
 std::string ShaderGenerator::fragment(const std::string& outputs, const std::string& before_user,
                                       const std::string& after_user) const {
   std::string text = head();
-  if (needs_triangle())
+  if (supply_ == Supply::exact)
     text += vertex_data(leaves_.size()) + "uniform usamplerBuffer " + kPositions + ", " + kIndices +
-            ";\nuniform vec2 twinshade_ndc_scale;\n" + exact_attribute_functions();
+            ";\nuint twinshade_index(int i) { return texelFetch(twinshade_indices, i).x; }\n"
+            "uvec4 twinshade_position(uint vertex) { return texelFetch(twinshade_positions, int(vertex)); }\n";
+  else if (needs_triangle())  // softpipe's buffer textures hold 65,536 texels only
+    text += "layout(std430) readonly buffer " + std::string(kPositionBlock) +
+            " { uvec4 twinshade_position_list[]; };\nlayout(std430) readonly buffer " + kIndexBlock +
+            " { uint twinshade_index_list[]; };\nuint twinshade_index(int i) { return twinshade_index_list[i]; }\n"
+            "uvec4 twinshade_position(uint vertex) { return twinshade_position_list[vertex]; }\n";
+  if (needs_triangle()) text += "uniform vec2 twinshade_ndc_scale;\n" + exact_attribute_functions();
   if (supply_ == Supply::texels)
     text += "uniform usampler2D twinshade_cpu_ids;\nuniform usampler2DArray twinshade_cpu_attributes;\n";
   if (supply_ != Supply::varyings)

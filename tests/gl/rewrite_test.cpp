@@ -210,5 +210,29 @@ TEST_CASE("what cannot be rewritten is refused by name, file and line") {
                  "test.frag:1: names that begin with twinshade_ are reserved"));
   CHECK(contains(rejection("float x;\n"), "test.frag: the shader has no main()"));
   CHECK(contains(rejection("void main() { if (true) {\n"), "test.frag:1: \"{\" is never closed"));
+  for (const char* nonsense :
+       {"in vec3 = 4;\n", "in vec3 5;\n", "out [2];\n", ") in;\n", "in layout;\n", "struct;\n", "in;\n", ";;\n"})
+    for (const InputStyle style : {InputStyle::globals, InputStyle::varyings})
+      rejection(nonsense + kMain, style);  // the driver's to refuse
   CHECK(contains(rejection("#error no such mode\n" + kMain), "test.frag:1:"));
+}
+
+TEST_CASE("a shader cut off anywhere is rewritten or refused, never more") {
+  const std::string text =
+      "layout(location = 1 + (2)) flat in precise vec3 a[2], b;\nstruct S { float x; } s[2];\nlayout(std140) uniform U "
+      "{ vec4 v; } u;\n"
+      "float g = a[0].x, h[2] = float[2](g, 1.0);\nvoid f(in vec2 p[2], out int q) { q = int(p[1]); }\nout vec4 "
+      "c;\nprecise c;\n"
+      "void main() { for (int i = 0; i < 3; ++i) { c = vec4(h[i], gl_FragCoord.xyz); } }\n";
+  int refused = 0;
+  for (std::size_t length = 0; length <= text.size(); ++length)
+    for (const InputStyle style : {InputStyle::globals, InputStyle::varyings}) {
+      try {
+        rewrite_fragment_shader(shader(text.substr(0, length)), style);
+      } catch (const UserError&) {
+        ++refused;
+      }
+    }
+  CHECK(refused > 100);
+  CHECK(refused < 2 * int(text.size()));
 }

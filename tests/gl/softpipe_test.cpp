@@ -61,6 +61,16 @@ TEST_CASE("built-ins of the fragment are the exact ones on softpipe too") {
   CHECK(shaded_alike("out vec4 c; void main() { c = vec4(gl_FragCoord.xy, 0, 1); }").pixels_differ == 0);
 }
 
+TEST_CASE("softpipe takes more triangles than its buffer textures hold") {
+  const Bundle bundle = test::soup(test::Soup::small, 120, 70, 30000, 9);
+  const ShaderSource source = shader("in vec3 v_color; out vec4 c; void main() { c = vec4(v_color, gl_FragCoord.w); }");
+  DrawOptions options;
+  options.capture_attributes = true;
+  const Frame reference = make_gl_renderer(GlBackend::egl)->draw(bundle, source, options);
+  const Frame frame = shade_on_softpipe(bundle, source, reference, {}, kTimeLimit);
+  CHECK(compare_frames(reference, frame).pixels_differ == 0);
+}
+
 TEST_CASE("storage buffers and uniform blocks work on softpipe") {
   Bundle bundle = test::quad(6, 4);
   bundle.buffers = {{"Params", false, std::vector<std::byte>(16, std::byte{0x40})},

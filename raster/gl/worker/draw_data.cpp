@@ -85,19 +85,23 @@ void DrawData::replace(ImageIndex index, SharedMemory memory) {
   fill_buffer(gl_, indices_, memory_.data() + index_.indices, index_.index_count * 4, index_.index_count * 4);
   fill_buffer(gl_, drawn_indices_, memory_.data() + index_.drawn_indices, index_.index_count * 4,
               index_.index_count * 4);
-  view_buffer(position_view_, GL_RGBA32UI, vertices_, index_.vertex_count);
-  view_buffer(vertex_view_, GL_R32UI, vertices_, index_.vertex_floats);
-  view_buffer(index_view_, GL_R32UI, indices_, index_.index_count);
+  view_buffer(position_view_, GL_RGBA32UI, vertices_);
+  view_buffer(vertex_view_, GL_R32UI, vertices_);
+  view_buffer(index_view_, GL_R32UI, indices_);
   check_errors(gl_, "uploading vertices");
 }
 
-void DrawData::view_buffer(GLuint view, GLenum format, GLuint buffer, std::uint64_t texels) {
+void DrawData::view_buffer(GLuint view, GLenum format, GLuint buffer) {
+  gl_.BindTexture(GL_TEXTURE_BUFFER, view);
+  gl_.TexBuffer(GL_TEXTURE_BUFFER, format, buffer);
+}
+
+void DrawData::bind_view(GLint location, GLuint view, std::uint64_t texels) {
   if (texels > std::uint64_t(most_buffer_texels_))
     throw std::runtime_error(std::to_string(texels) +
                              " numbers of vertex data or indices are more than the driver's buffer textures hold (" +
                              std::to_string(most_buffer_texels_) + ")");
-  gl_.BindTexture(GL_TEXTURE_BUFFER, view);
-  gl_.TexBuffer(GL_TEXTURE_BUFFER, format, buffer);
+  bind_unit(location, GL_TEXTURE_BUFFER, view);
 }
 
 void DrawData::set_cpu_pixels(std::uint32_t width, std::uint32_t height, std::uint32_t components, const std::byte* ids,
@@ -164,7 +168,12 @@ void DrawData::bind(const Program& program, const DrawRequest& request) {
   }
   binding = 0;
   for (const ActiveBlock& block : program.storage_blocks()) {
-    bind_buffer(block, true, binding);
+    if (block.name == kPositionBlock)
+      gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, vertices_);
+    else if (block.name == kIndexBlock)
+      gl_.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, indices_);
+    else
+      bind_buffer(block, true, binding);
     gl_.ShaderStorageBlockBinding(program.id(), block.index, binding++);
   }
   check_errors(gl_, "binding uniforms and buffers");
@@ -177,11 +186,11 @@ bool DrawData::bind_own_uniform(const ActiveUniform& uniform, const DrawRequest&
   } else if (uniform.name == kCpuAttributes) {
     bind_unit(uniform.location, GL_TEXTURE_2D_ARRAY, cpu_attributes_);
   } else if (uniform.name == kPositions) {
-    bind_unit(uniform.location, GL_TEXTURE_BUFFER, position_view_);
+    bind_view(uniform.location, position_view_, index_.vertex_count);
   } else if (uniform.name == kVertexData) {
-    bind_unit(uniform.location, GL_TEXTURE_BUFFER, vertex_view_);
+    bind_view(uniform.location, vertex_view_, index_.vertex_floats);
   } else if (uniform.name == kIndices) {
-    bind_unit(uniform.location, GL_TEXTURE_BUFFER, index_view_);
+    bind_view(uniform.location, index_view_, index_.index_count);
   } else if (uniform.name == kNdcScale) {
     gl_.Uniform2f(uniform.location, 2.0f / float(std::bit_ceil(request.width)),
                   2.0f / float(std::bit_ceil(request.height)));

@@ -39,7 +39,8 @@ class DrawData {
   void bind_buffer(const ActiveBlock& block, bool storage, GLuint binding);
   GLuint texture(const ImageTexture& texture);
   GLuint buffer(const ImageBuffer& buffer);
-  void view_buffer(GLuint view, GLenum format, GLuint buffer, std::uint64_t texels);
+  void view_buffer(GLuint view, GLenum format, GLuint buffer);
+  void bind_view(GLint location, GLuint view, std::uint64_t texels);
   void bind_unit(GLint location, GLenum target, GLuint name);
 
   const GlFunctions& gl_;

@@ -14,16 +14,6 @@ template <Lane T>
 TWINSHADE_INLINE constexpr Plain<typename T::element, 1> constant_for(const T&, double x) {
   return Plain<typename T::element, 1>(static_cast<typename T::element>(x));
 }
-// one with the sign of x, NaN's included.
-template <Lane T>
-TWINSHADE_INLINE T with_sign_of(const T& x, const T& one) {
-  if constexpr (std::same_as<typename T::element, float>) {
-    using U = typename T::template with<std::uint32_t>;
-    return ((x.template as<std::uint32_t>() & U(0x80000000u)) | one.template as<std::uint32_t>()).template as<float>();
-  } else {
-    return map_lanes([](double a, double b) { return __builtin_copysign(b, a); }, x, one);
-  }
-}
 // 2^e in real type E, the exponent of a normal number.
 template <class E, Lane I>
 TWINSHADE_INLINE auto power_of_two(const I& e) {
@@ -44,7 +34,7 @@ template <LaneOrVec A>
 TWINSHADE_INLINE auto abs(const A& a) {
   return map([](const auto& x) { return lanes_abs(x); }, a);
 }
-// 0 for both zeros; NaN gives 1 with its sign, as Mesa.
+// 0 for zeros and NaN.
 template <LaneOrVec A>
 TWINSHADE_INLINE auto sign(const A& a) {
   return map(
@@ -52,12 +42,7 @@ TWINSHADE_INLINE auto sign(const A& a) {
         using T = std::remove_cvref_t<decltype(x)>;
         using E = typename T::element;
         const T zero(E(0)), one(E(1)), minus_one(static_cast<E>(-1));
-        if constexpr (number::Real<E>) {
-          const T signed_one = detail::with_sign_of(x, one);
-          return select(x == zero, zero, signed_one);
-        } else {
-          return select(x == zero, zero, select(x < zero, minus_one, one));
-        }
+        return select(x > zero, one, select(x < zero, minus_one, zero));
       },
       a);
 }

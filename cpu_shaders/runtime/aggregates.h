@@ -281,7 +281,7 @@ TWINSHADE_INLINE constexpr auto fold(F f, const V& v) {
   template <LaneOrVec A, LaneOrVec B>                                                                 \
     requires(Vec<A> || Vec<B>)                                                                        \
   TWINSHADE_INLINE constexpr auto operator op(const A& a, const B& b) {                               \
-    return map([](const auto& x, const auto& y) { return x op y; }, a, b);                            \
+    return map([](const auto& x, const auto& y) TWINSHADE_LAMBDA { return x op y; }, a, b);                            \
   }                                                                                                   \
   template <Vec A, LaneOrVec B>                                                                       \
   TWINSHADE_INLINE constexpr A& operator op##=(A& a, const B& b) { return a = a op b; }               \
@@ -302,22 +302,22 @@ TWINSHADE_VEC_OPERATOR(>>)
 
 template <Vec A>
 TWINSHADE_INLINE constexpr auto operator-(const A& a) {
-  return map([](const auto& x) { return -x; }, a);
+  return map([](const auto& x) TWINSHADE_LAMBDA { return -x; }, a);
 }
 template <Vec A>
 TWINSHADE_INLINE constexpr auto operator~(const A& a) {
-  return map([](const auto& x) { return ~x; }, a);
+  return map([](const auto& x) TWINSHADE_LAMBDA { return ~x; }, a);
 }
 template <Vec A>
 TWINSHADE_INLINE constexpr auto operator!(const A& a) {
-  return map([](const auto& x) { return !x; }, a);
+  return map([](const auto& x) TWINSHADE_LAMBDA { return !x; }, a);
 }
 
 // GLSL's == on vectors, matrices and arrays: one bool for the whole.
 template <Vec A, Vec B>
 TWINSHADE_INLINE constexpr auto operator==(const A& a, const B& b) {
-  return fold([](const auto& x, const auto& y) { return x & y; },
-              map([](const auto& x, const auto& y) { return x == y; }, a, b));
+  return fold([](const auto& x, const auto& y) TWINSHADE_LAMBDA { return x & y; },
+              map([](const auto& x, const auto& y) TWINSHADE_LAMBDA { return x == y; }, a, b));
 }
 template <Mat A, Mat B>
 TWINSHADE_INLINE constexpr auto operator==(const A& a, const B& b) {
@@ -355,7 +355,7 @@ requires(M::width != 1) TWINSHADE_INLINE constexpr auto select(const M& m, Plain
 }
 template <class M, Vec A, Vec B>
 TWINSHADE_INLINE constexpr auto select(const M& m, const A& a, const B& b) {
-  return map([](const auto& c, const auto& x, const auto& y) { return select(c, x, y); }, m, a, b);
+  return map([](const auto& c, const auto& x, const auto& y) TWINSHADE_LAMBDA { return select(c, x, y); }, m, a, b);
 }
 template <Lane M, Mat A, Mat B>
 TWINSHADE_INLINE constexpr auto select(const M& m, const A& a, const B& b) {

@@ -32,13 +32,13 @@ namespace glsl {
 
 template <LaneOrVec A>
 TWINSHADE_INLINE auto abs(const A& a) {
-  return map([](const auto& x) { return lanes_abs(x); }, a);
+  return map([](const auto& x) TWINSHADE_LAMBDA { return lanes_abs(x); }, a);
 }
 // 0 for zeros and NaN.
 template <LaneOrVec A>
 TWINSHADE_INLINE auto sign(const A& a) {
   return map(
-      [](const auto& x) {
+      [](const auto& x) TWINSHADE_LAMBDA {
         using T = std::remove_cvref_t<decltype(x)>;
         using E = typename T::element;
         const T zero(E(0)), one(E(1)), minus_one(static_cast<E>(-1));
@@ -48,19 +48,19 @@ TWINSHADE_INLINE auto sign(const A& a) {
 }
 template <LaneOrVec A>
 TWINSHADE_INLINE auto floor(const A& a) {
-  return map([](const auto& x) { return lanes_floor(x); }, a);
+  return map([](const auto& x) TWINSHADE_LAMBDA { return lanes_floor(x); }, a);
 }
 template <LaneOrVec A>
 TWINSHADE_INLINE auto ceil(const A& a) {
-  return map([](const auto& x) { return lanes_ceil(x); }, a);
+  return map([](const auto& x) TWINSHADE_LAMBDA { return lanes_ceil(x); }, a);
 }
 template <LaneOrVec A>
 TWINSHADE_INLINE auto trunc(const A& a) {
-  return map([](const auto& x) { return lanes_trunc(x); }, a);
+  return map([](const auto& x) TWINSHADE_LAMBDA { return lanes_trunc(x); }, a);
 }
 template <LaneOrVec A>
 TWINSHADE_INLINE auto roundEven(const A& a) {
-  return map([](const auto& x) { return lanes_round_even(x); }, a);
+  return map([](const auto& x) TWINSHADE_LAMBDA { return lanes_round_even(x); }, a);
 }
 template <LaneOrVec A>
 TWINSHADE_INLINE auto round(const A& a) {
@@ -68,11 +68,11 @@ TWINSHADE_INLINE auto round(const A& a) {
 }
 template <LaneOrVec A>
 TWINSHADE_INLINE auto fract(const A& a) {
-  return map([](const auto& x) { return x - lanes_floor(x); }, a);
+  return map([](const auto& x) TWINSHADE_LAMBDA { return x - lanes_floor(x); }, a);
 }
 template <LaneOrVec A, LaneOrVec B>
 TWINSHADE_INLINE auto mod(const A& a, const B& b) {
-  return map([](const auto& x, const auto& y) { return x - y * lanes_floor(x / y); }, a, b);
+  return map([](const auto& x, const auto& y) TWINSHADE_LAMBDA { return x - y * lanes_floor(x / y); }, a, b);
 }
 // The fraction has the sign of x; whole is trunc(x).
 template <LaneOrVec A, class W>
@@ -84,11 +84,11 @@ TWINSHADE_INLINE auto modf(const A& a, W& whole) {
 
 template <LaneOrVec A, LaneOrVec B>
 TWINSHADE_INLINE auto min(const A& a, const B& b) {
-  return map([](const auto& x, const auto& y) { return lanes_min(x, y); }, a, b);
+  return map([](const auto& x, const auto& y) TWINSHADE_LAMBDA { return lanes_min(x, y); }, a, b);
 }
 template <LaneOrVec A, LaneOrVec B>
 TWINSHADE_INLINE auto max(const A& a, const B& b) {
-  return map([](const auto& x, const auto& y) { return lanes_max(x, y); }, a, b);
+  return map([](const auto& x, const auto& y) TWINSHADE_LAMBDA { return lanes_max(x, y); }, a, b);
 }
 template <LaneOrVec A, LaneOrVec L, LaneOrVec H>
 TWINSHADE_INLINE auto clamp(const A& a, const L& low, const H& high) {
@@ -98,7 +98,7 @@ TWINSHADE_INLINE auto clamp(const A& a, const L& low, const H& high) {
 template <LaneOrVec A, LaneOrVec B, LaneOrVec T>
 TWINSHADE_INLINE auto mix(const A& a, const B& b, const T& t) {
   return map(
-      [](const auto& x, const auto& y, const auto& w) {
+      [](const auto& x, const auto& y, const auto& w) TWINSHADE_LAMBDA {
         if constexpr (std::same_as<typename std::remove_cvref_t<decltype(w)>::element, bool>)
           return select(w, y, x);
         else
@@ -108,15 +108,15 @@ TWINSHADE_INLINE auto mix(const A& a, const B& b, const T& t) {
 }
 template <LaneOrVec Edge, LaneOrVec A>
 TWINSHADE_INLINE auto step(const Edge& edge, const A& a) {
-  return map([](const auto& e,
-                const auto& x) { return select(x >= e, detail::constant_for(x, 1), detail::constant_for(x, 0)); },
+  return map([](const auto& e, const auto& x)
+                 TWINSHADE_LAMBDA { return select(x >= e, detail::constant_for(x, 1), detail::constant_for(x, 0)); },
              edge, a);
 }
 template <LaneOrVec L, LaneOrVec H, LaneOrVec A>
 TWINSHADE_INLINE auto smoothstep(const L& low, const H& high, const A& a) {
   return map(
-      [](const auto& e0, const auto& e1, const auto& x) {
-        const auto k = [&](double c) { return detail::constant_for(x, c); };
+      [](const auto& e0, const auto& e1, const auto& x) TWINSHADE_LAMBDA {
+        const auto k = [&](double c) TWINSHADE_LAMBDA { return detail::constant_for(x, c); };
         const auto t = lanes_min(lanes_max((x - e0) / (e1 - e0), k(0)), k(1));
         return t * (t * (k(3) - k(2) * t));
       },
@@ -124,11 +124,12 @@ TWINSHADE_INLINE auto smoothstep(const L& low, const H& high, const A& a) {
 }
 template <LaneOrVec A>
 TWINSHADE_INLINE auto isnan(const A& a) {
-  return map([](const auto& x) { return x != x; }, a);
+  return map([](const auto& x) TWINSHADE_LAMBDA { return x != x; }, a);
 }
 template <LaneOrVec A>
 TWINSHADE_INLINE auto isinf(const A& a) {
-  return map([](const auto& x) { return lanes_abs(x) == detail::constant_for(x, __builtin_inf()); }, a);
+  return map([](const auto& x) TWINSHADE_LAMBDA { return lanes_abs(x) == detail::constant_for(x, __builtin_inf()); },
+             a);
 }
 template <LaneOrVec A, LaneOrVec B, LaneOrVec C>
 TWINSHADE_INLINE auto fma(const A& a, const B& b, const C& c) {
@@ -155,9 +156,9 @@ TWINSHADE_INLINE auto uintBitsToFloat(const A& a) {
 // x = result * 2^exponent, .5 <= |result| < 1; zeros, infinities and NaN are themselves with exponent 0.
 template <LaneOrVec A, class I>
 TWINSHADE_INLINE auto frexp(const A& a, I& exponent) {
-  const auto finite = [](auto x) { return x != 0 && x - x == 0; };
+  const auto finite = [](auto x) TWINSHADE_LAMBDA { return x != 0 && x - x == 0; };
   exponent = map(
-      [&](const auto& x) {
+      [&](const auto& x) TWINSHADE_LAMBDA {
         using T = std::remove_cvref_t<decltype(x)>;
         typename T::template with<std::int32_t> r(std::int32_t{0});
         for (int i = 0; i < T::width; ++i) {
@@ -169,9 +170,9 @@ TWINSHADE_INLINE auto frexp(const A& a, I& exponent) {
       },
       a);
   return map(
-      [&](const auto& x) {
+      [&](const auto& x) TWINSHADE_LAMBDA {
         return map_lanes(
-            [&](auto v) {
+            [&](auto v) TWINSHADE_LAMBDA {
               int e = 0;
               return finite(v) ? static_cast<decltype(v)>(__builtin_frexp(static_cast<double>(v), &e)) : v;
             },
@@ -183,7 +184,7 @@ TWINSHADE_INLINE auto frexp(const A& a, I& exponent) {
 template <LaneOrVec A, LaneOrVec I>
 TWINSHADE_INLINE auto ldexp(const A& a, const I& exponent) {
   return map(
-      [](const auto& x, const auto& e) {
+      [](const auto& x, const auto& e) TWINSHADE_LAMBDA {
         using E = typename std::remove_cvref_t<decltype(x)>::element;
         using Int = std::remove_cvref_t<decltype(e)>;
         constexpr int bias = std::same_as<E, float> ? 127 : 1023;
@@ -201,7 +202,7 @@ TWINSHADE_INLINE auto ldexp(const A& a, const I& exponent) {
 #define TWINSHADE_RELATION(name, op)                                                     \
   template <LaneOrVec A, LaneOrVec B>                                                    \
   TWINSHADE_INLINE auto name(const A& a, const B& b) {                                   \
-    return map([](const auto& x, const auto& y) { return x op y; }, a, b);               \
+    return map([](const auto& x, const auto& y) TWINSHADE_LAMBDA { return x op y; }, a, b);               \
   }
 TWINSHADE_RELATION(lessThan, <)
 TWINSHADE_RELATION(lessThanEqual, <=)
@@ -215,14 +216,14 @@ TWINSHADE_RELATION(notEqual, !=)
 template <LaneOrVec A>
 TWINSHADE_INLINE auto any(const A& a) {
   if constexpr (Vec<A>)
-    return fold([](const auto& x, const auto& y) { return x | y; }, a);
+    return fold([](const auto& x, const auto& y) TWINSHADE_LAMBDA { return x | y; }, a);
   else
     return a;
 }
 template <LaneOrVec A>
 TWINSHADE_INLINE auto all(const A& a) {
   if constexpr (Vec<A>)
-    return fold([](const auto& x, const auto& y) { return x & y; }, a);
+    return fold([](const auto& x, const auto& y) TWINSHADE_LAMBDA { return x & y; }, a);
   else
     return a;
 }

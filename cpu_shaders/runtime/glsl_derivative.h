@@ -11,7 +11,7 @@ namespace glsl {
 template <LaneOrVec A>
 TWINSHADE_INLINE auto dFdx(const A& a) {
   return map(
-      [](const auto& x) {
+      [](const auto& x) TWINSHADE_LAMBDA {
         using T = std::remove_cvref_t<decltype(x)>;
         if constexpr (T::width == 1)
           return T(typename T::element(0));
@@ -23,7 +23,7 @@ TWINSHADE_INLINE auto dFdx(const A& a) {
 template <LaneOrVec A>
 TWINSHADE_INLINE auto dFdy(const A& a) {
   return map(
-      [](const auto& x) {
+      [](const auto& x) TWINSHADE_LAMBDA {
         using T = std::remove_cvref_t<decltype(x)>;
         if constexpr (T::width == 1)
           return T(typename T::element(0));

@@ -25,11 +25,11 @@ TWINSHADE_INLINE auto dot(const A& a, const B& b) {
 }
 template <LaneOrVec A>
 TWINSHADE_INLINE auto sqrt(const A& a) {
-  return map([](const auto& x) { return lanes_sqrt(x); }, a);
+  return map([](const auto& x) TWINSHADE_LAMBDA { return lanes_sqrt(x); }, a);
 }
 template <LaneOrVec A>
 TWINSHADE_INLINE auto inversesqrt(const A& a) {
-  return map([](const auto& x) { return detail::constant_for(x, 1) / lanes_sqrt(x); }, a);
+  return map([](const auto& x) TWINSHADE_LAMBDA { return detail::constant_for(x, 1) / lanes_sqrt(x); }, a);
 }
 template <LaneOrVec A>
 TWINSHADE_INLINE auto length(const A& a) {
@@ -69,7 +69,7 @@ TWINSHADE_INLINE auto refract(const I& incident, const N& normal, const E& eta) 
   const auto zero = detail::constant_for(d, 0), one = detail::constant_for(d, 1);
   const auto k = one - eta * (eta * (one - d * d));
   const auto bent = eta * incident - (eta * d + lanes_sqrt(k)) * normal;
-  return map([&](const auto& x) { return select(k < zero, zero, x); }, bent);
+  return map([&](const auto& x) TWINSHADE_LAMBDA { return select(k < zero, zero, x); }, bent);
 }
 
 }  // namespace glsl
@@ -80,7 +80,7 @@ namespace detail {
 // f(column of a, column of b) for each column; a scalar stands for every column.
 template <class F, class A, class B>
 TWINSHADE_INLINE auto map_columns(F f, const A& a, const B& b) {
-  const auto column = [](const auto& m, int i) -> const auto& {
+  const auto column = [](const auto& m, int i) TWINSHADE_LAMBDA -> const auto& {
     if constexpr (Mat<std::remove_cvref_t<decltype(m)>>)
       return m.c[i];
     else
@@ -99,7 +99,7 @@ TWINSHADE_INLINE auto map_columns(F f, const A& a, const B& b) {
   template <class A, class B>                                                                   \
     requires((Mat<A> && (Mat<B> || Lane<B>)) || (Lane<A> && Mat<B>))                            \
   TWINSHADE_INLINE auto operator op(const A& a, const B& b) {                                   \
-    return detail::map_columns([](const auto& x, const auto& y) { return x op y; }, a, b);      \
+    return detail::map_columns([](const auto& x, const auto& y) TWINSHADE_LAMBDA { return x op y; }, a, b);      \
   }
 TWINSHADE_MAT_OPERATOR(+)
 TWINSHADE_MAT_OPERATOR(-)
@@ -108,7 +108,7 @@ TWINSHADE_MAT_OPERATOR(/)
 // clang-format on
 template <class A, class B>
 requires((Mat<A> && Lane<B>) || (Lane<A> && Mat<B>)) TWINSHADE_INLINE auto operator*(const A& a, const B& b) {
-  return detail::map_columns([](const auto& x, const auto& y) { return x * y; }, a, b);
+  return detail::map_columns([](const auto& x, const auto& y) TWINSHADE_LAMBDA { return x * y; }, a, b);
 }
 template <Mat A>
 TWINSHADE_INLINE auto operator-(const A& a) {
@@ -126,7 +126,7 @@ TWINSHADE_INLINE auto operator*(const M& m, const V& v) {
 }
 template <Vec V, Mat M>
 TWINSHADE_INLINE auto operator*(const V& v, const M& m) {
-  return [&]<int... k>(std::integer_sequence<int, k...>) {
+  return [&]<int... k>(std::integer_sequence<int, k...>) TWINSHADE_LAMBDA {
     return vec<decltype(glsl::dot(v, m.c[0])), M::column_count>(glsl::dot(v, m.c[k])...);
   }
   (detail::Indices<M::column_count>());
@@ -143,11 +143,11 @@ namespace glsl {
 
 template <Mat A, Mat B>
 TWINSHADE_INLINE auto matrixCompMult(const A& a, const B& b) {
-  return detail::map_columns([](const auto& x, const auto& y) { return x * y; }, a, b);
+  return detail::map_columns([](const auto& x, const auto& y) TWINSHADE_LAMBDA { return x * y; }, a, b);
 }
 template <Vec C, Vec R>
 TWINSHADE_INLINE auto outerProduct(const C& column, const R& row) {
-  return [&]<int... k>(std::integer_sequence<int, k...>) {
+  return [&]<int... k>(std::integer_sequence<int, k...>) TWINSHADE_LAMBDA {
     using T = typename decltype(column * row.x)::element;
     return mat<T, R::size, C::size>(column * row.template at<k>()...);
   }

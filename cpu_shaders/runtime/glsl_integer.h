@@ -12,8 +12,8 @@ namespace integer {
 template <class F, LaneOrVec A>
 TWINSHADE_INLINE auto counted(F f, const A& a) {
   return map(
-      [f](const auto& x) {
-        return map_lanes([f](std::int32_t v) { return static_cast<std::int32_t>(f(v)); },
+      [f](const auto& x) TWINSHADE_LAMBDA {
+        return map_lanes([f](std::int32_t v) TWINSHADE_LAMBDA { return static_cast<std::int32_t>(f(v)); },
                          x.template to<std::int32_t>());
       },
       a);
@@ -31,7 +31,7 @@ TWINSHADE_INLINE auto low_bits(const I& bits) {
 template <LaneOrVec A, Lane O, Lane N>
 TWINSHADE_INLINE auto bitfieldExtract(const A& a, const O& offset, const N& bits) {
   return map(
-      [&](const auto& x) {
+      [&](const auto& x) TWINSHADE_LAMBDA {
         using E = typename std::remove_cvref_t<decltype(x)>::element;
         const auto field = (x.template to<std::uint32_t>() >> offset) & integer::low_bits(bits);
         if constexpr (std::same_as<E, std::uint32_t>) {
@@ -48,7 +48,7 @@ TWINSHADE_INLINE auto bitfieldExtract(const A& a, const O& offset, const N& bits
 template <LaneOrVec A, LaneOrVec B, Lane O, Lane N>
 TWINSHADE_INLINE auto bitfieldInsert(const A& base, const B& insert, const O& offset, const N& bits) {
   return map(
-      [&](const auto& x, const auto& y) {
+      [&](const auto& x, const auto& y) TWINSHADE_LAMBDA {
         using E = typename std::remove_cvref_t<decltype(x)>::element;
         const auto field =
             select(bits == Plain<std::int32_t, 1>(0), Plain<std::uint32_t, 1>(0u), integer::low_bits(bits) << offset);
@@ -61,9 +61,9 @@ TWINSHADE_INLINE auto bitfieldInsert(const A& base, const B& insert, const O& of
 template <LaneOrVec A>
 TWINSHADE_INLINE auto bitfieldReverse(const A& a) {
   return map(
-      [](const auto& x) {
+      [](const auto& x) TWINSHADE_LAMBDA {
         return map_lanes(
-            [](auto v) {
+            [](auto v) TWINSHADE_LAMBDA {
               auto w = static_cast<std::uint32_t>(v);
               w = (w >> 1 & 0x55555555u) | (w & 0x55555555u) << 1;
               w = (w >> 2 & 0x33333333u) | (w & 0x33333333u) << 2;
@@ -76,20 +76,22 @@ TWINSHADE_INLINE auto bitfieldReverse(const A& a) {
 }
 template <LaneOrVec A>
 TWINSHADE_INLINE auto bitCount(const A& a) {
-  return integer::counted([](std::int32_t v) { return __builtin_popcount(static_cast<std::uint32_t>(v)); }, a);
+  return integer::counted(
+      [](std::int32_t v) TWINSHADE_LAMBDA { return __builtin_popcount(static_cast<std::uint32_t>(v)); }, a);
 }
 template <LaneOrVec A>
 TWINSHADE_INLINE auto findLSB(const A& a) {  // -1 where no bit is set
-  return integer::counted([](std::int32_t v) { return v == 0 ? -1 : __builtin_ctz(static_cast<std::uint32_t>(v)); }, a);
+  return integer::counted(
+      [](std::int32_t v) TWINSHADE_LAMBDA { return v == 0 ? -1 : __builtin_ctz(static_cast<std::uint32_t>(v)); }, a);
 }
 // The highest bit that differs from the sign for int, the highest set for uint; -1 where there is none.
 template <LaneOrVec A>
 TWINSHADE_INLINE auto findMSB(const A& a) {
   return map(
-      [](const auto& x) {
+      [](const auto& x) TWINSHADE_LAMBDA {
         using E = typename std::remove_cvref_t<decltype(x)>::element;
         return integer::counted(
-            [](std::int32_t v) {
+            [](std::int32_t v) TWINSHADE_LAMBDA {
               const auto w = static_cast<std::uint32_t>(std::same_as<E, std::int32_t> && v < 0 ? ~v : v);
               return w == 0 ? -1 : 31 - __builtin_clz(w);
             },
@@ -112,10 +114,10 @@ namespace integer {
 template <class Wide, LaneOrVec A, LaneOrVec B>
 TWINSHADE_INLINE auto high_word(const A& a, const B& b) {
   return map(
-      [](const auto& x, const auto& y) {
+      [](const auto& x, const auto& y) TWINSHADE_LAMBDA {
         using T = decltype(x * y);
         return map_lanes(
-            [](auto v, auto w) {
+            [](auto v, auto w) TWINSHADE_LAMBDA {
               return static_cast<decltype(v)>((static_cast<Wide>(v) * static_cast<Wide>(w)) >> 32);
             },
             T(x), T(y));

@@ -51,15 +51,15 @@ TWINSHADE_INLINE auto pack(const A& a, std::uint32_t bits, F field) {
 }
 template <Lane F>
 TWINSHADE_INLINE auto to_field(const F& x, double low, double scale) {  // round(clamp(x, low, 1) * scale)
-  const auto k = [&](double c) { return detail::constant_for(x, c); };
+  const auto k = [&](double c) TWINSHADE_LAMBDA { return detail::constant_for(x, c); };
   return lanes_round_even(lanes_min(lanes_max(x, k(low)), k(1)) * k(scale))
       .template to<std::int32_t>()
       .template to<std::uint32_t>();
 }
 template <int n, Lane U, class F>
 TWINSHADE_INLINE auto unpack(const U& word, std::uint32_t bits, F value) {
-  return [&]<int... k>(std::integer_sequence<int, k...>) {
-    const auto field = [&](std::uint32_t i) { return (word >> U(i * bits)) & U((1u << bits) - 1); };
+  return [&]<int... k>(std::integer_sequence<int, k...>) TWINSHADE_LAMBDA {
+    const auto field = [&](std::uint32_t i) TWINSHADE_LAMBDA { return (word >> U(i * bits)) & U((1u << bits) - 1); };
     using T = decltype(value(word));
     return vec<T, n>(value(field(k))...);
   }
@@ -74,54 +74,56 @@ template <class N, Lane U>
 TWINSHADE_INLINE auto from_snorm(const U& field, int bits, double scale) {
   const U shift(static_cast<std::uint32_t>(32 - bits));
   const auto x = ((field << shift).template to<std::int32_t>() >> shift).template to<typename N::real>();
-  const auto k = [&](double c) { return detail::constant_for(x, c); };
+  const auto k = [&](double c) TWINSHADE_LAMBDA { return detail::constant_for(x, c); };
   return lanes_min(lanes_max(x / k(scale), k(-1)), k(1));
 }
 }  // namespace packing
 
 template <Vec A>
 TWINSHADE_INLINE auto packUnorm2x16(const A& a) {
-  return packing::pack(a, 16, [](const auto& x) { return packing::to_field(x, 0, 65535); });
+  return packing::pack(a, 16, [](const auto& x) TWINSHADE_LAMBDA { return packing::to_field(x, 0, 65535); });
 }
 template <Vec A>
 TWINSHADE_INLINE auto packSnorm2x16(const A& a) {
-  return packing::pack(a, 16, [](const auto& x) { return packing::to_field(x, -1, 32767); });
+  return packing::pack(a, 16, [](const auto& x) TWINSHADE_LAMBDA { return packing::to_field(x, -1, 32767); });
 }
 template <Vec A>
 TWINSHADE_INLINE auto packUnorm4x8(const A& a) {
-  return packing::pack(a, 8, [](const auto& x) { return packing::to_field(x, 0, 255); });
+  return packing::pack(a, 8, [](const auto& x) TWINSHADE_LAMBDA { return packing::to_field(x, 0, 255); });
 }
 template <Vec A>
 TWINSHADE_INLINE auto packSnorm4x8(const A& a) {
-  return packing::pack(a, 8, [](const auto& x) { return packing::to_field(x, -1, 127); });
+  return packing::pack(a, 8, [](const auto& x) TWINSHADE_LAMBDA { return packing::to_field(x, -1, 127); });
 }
 template <Vec A>
 TWINSHADE_INLINE auto packHalf2x16(const A& a) {
-  return packing::pack(a, 16, [](const auto& x) {
-    return map_lanes([](std::uint32_t w) { return number::half_from_float(number::bits<float>(w)); },
+  return packing::pack(a, 16, [](const auto& x) TWINSHADE_LAMBDA {
+    return map_lanes([](std::uint32_t w) TWINSHADE_LAMBDA { return number::half_from_float(number::bits<float>(w)); },
                      x.template as<std::uint32_t>());
   });
 }
 template <class N, Lane U>
 TWINSHADE_INLINE auto unpackUnorm2x16(const U& word) {
-  return packing::unpack<2>(word, 16, [](const U& x) { return packing::from_unorm<N>(x, 65535); });
+  return packing::unpack<2>(word, 16, [](const U& x) TWINSHADE_LAMBDA { return packing::from_unorm<N>(x, 65535); });
 }
 template <class N, Lane U>
 TWINSHADE_INLINE auto unpackSnorm2x16(const U& word) {
-  return packing::unpack<2>(word, 16, [](const U& x) { return packing::from_snorm<N>(x, 16, 32767); });
+  return packing::unpack<2>(word, 16, [](const U& x) TWINSHADE_LAMBDA { return packing::from_snorm<N>(x, 16, 32767); });
 }
 template <class N, Lane U>
 TWINSHADE_INLINE auto unpackUnorm4x8(const U& word) {
-  return packing::unpack<4>(word, 8, [](const U& x) { return packing::from_unorm<N>(x, 255); });
+  return packing::unpack<4>(word, 8, [](const U& x) TWINSHADE_LAMBDA { return packing::from_unorm<N>(x, 255); });
 }
 template <class N, Lane U>
 TWINSHADE_INLINE auto unpackSnorm4x8(const U& word) {
-  return packing::unpack<4>(word, 8, [](const U& x) { return packing::from_snorm<N>(x, 8, 127); });
+  return packing::unpack<4>(word, 8, [](const U& x) TWINSHADE_LAMBDA { return packing::from_snorm<N>(x, 8, 127); });
 }
 template <class N, Lane U>
 TWINSHADE_INLINE auto unpackHalf2x16(const U& word) {
-  return packing::unpack<2>(word, 16, [](const U& x) {
-    return map_lanes([](std::uint32_t h) { return number::bits<std::uint32_t>(number::float_from_half(h)); }, x)
+  return packing::unpack<2>(word, 16, [](const U& x) TWINSHADE_LAMBDA {
+    return map_lanes([](std::uint32_t h)
+                         TWINSHADE_LAMBDA { return number::bits<std::uint32_t>(number::float_from_half(h)); },
+                     x)
         .template as<float>()
         .template to<typename N::real>();
   });

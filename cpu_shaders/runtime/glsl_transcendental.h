@@ -16,10 +16,11 @@ namespace detail {
 template <class F, LaneOrVec... A>
 TWINSHADE_INLINE auto in_double(F f, const A&... a) {
   return map(
-      [f](const auto&... x) {
+      [f](const auto&... x) TWINSHADE_LAMBDA {
         using T = std::remove_cvref_t<decltype((x + ...))>;
-        return map_lanes([f](auto... v) { return static_cast<typename T::element>(f(static_cast<double>(v)...)); },
-                         T(x)...);
+        return map_lanes(
+            [f](auto... v) TWINSHADE_LAMBDA { return static_cast<typename T::element>(f(static_cast<double>(v)...)); },
+            T(x)...);
       },
       a...);
 }
@@ -74,18 +75,20 @@ namespace glsl {
 
 template <LaneOrVec A>
 TWINSHADE_INLINE auto radians(const A& a) {
-  return map([](const auto& x) { return x * detail::constant_for(x, 0.017453292519943295); }, a);  // pi / 180
+  return map([](const auto& x) TWINSHADE_LAMBDA { return x * detail::constant_for(x, 0.017453292519943295); },
+             a);  // pi / 180
 }
 template <LaneOrVec A>
 TWINSHADE_INLINE auto degrees(const A& a) {
-  return map([](const auto& x) { return x * detail::constant_for(x, 57.295779513082321); }, a);  // 180 / pi
+  return map([](const auto& x) TWINSHADE_LAMBDA { return x * detail::constant_for(x, 57.295779513082321); },
+             a);  // 180 / pi
 }
 
 // clang-format off
 #define TWINSHADE_TRANSCENDENTAL(name, function)                                           \
   template <LaneOrVec A>                                                                   \
   TWINSHADE_INLINE auto name(const A& a) {                                                 \
-    return detail::in_double([](double x) { return function(x); }, a);                     \
+    return detail::in_double([](double x) TWINSHADE_LAMBDA { return function(x); }, a);                     \
   }
 TWINSHADE_TRANSCENDENTAL(sin, portable::sin)
 TWINSHADE_TRANSCENDENTAL(cos, portable::cos)
@@ -107,15 +110,15 @@ TWINSHADE_TRANSCENDENTAL(atanh, detail::atanh)
 
 template <LaneOrVec A, LaneOrVec B>
 TWINSHADE_INLINE auto pow(const A& a, const B& b) {
-  return detail::in_double([](double x, double y) { return portable::pow(x, y); }, a, b);
+  return detail::in_double([](double x, double y) TWINSHADE_LAMBDA { return portable::pow(x, y); }, a, b);
 }
 template <LaneOrVec Y, LaneOrVec X>
 TWINSHADE_INLINE auto atan(const Y& y, const X& x) {
-  return detail::in_double([](double v, double u) { return portable::atan2(v, u); }, y, x);
+  return detail::in_double([](double v, double u) TWINSHADE_LAMBDA { return portable::atan2(v, u); }, y, x);
 }
 template <LaneOrVec A>
 TWINSHADE_INLINE auto atan(const A& a) {
-  return detail::in_double([](double x) { return portable::atan2(x, 1); }, a);
+  return detail::in_double([](double x) TWINSHADE_LAMBDA { return portable::atan2(x, 1); }, a);
 }
 
 }  // namespace glsl

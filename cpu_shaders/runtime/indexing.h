@@ -25,7 +25,8 @@ template <class E, Lane I, class At>
 TWINSHADE_INLINE constexpr auto lookup_uniform(At at, const I& index) {
   using R = typename I::template with<E>;
   if constexpr (std::same_as<E, bool>) {
-    return lookup_uniform<std::int32_t>([&](int i) { return at(i) ? 1 : 0; }, index).template to<bool>();
+    return lookup_uniform<std::int32_t>([&](int i) TWINSHADE_LAMBDA { return at(i) ? 1 : 0; }, index)
+        .template to<bool>();
   } else {
     E entries[I::width];
     for (int i = 0; i < I::width; ++i) entries[i] = at(index.lane(i));
@@ -67,7 +68,7 @@ TWINSHADE_INLINE constexpr auto lookup_element(Entry entry, const I& index) {
     return entry(index.value());
   } else if constexpr (Lane<T>) {
     if constexpr (T::width == 1) {
-      return lookup_uniform<typename T::element>([&](int i) { return entry(i).value(); }, index);
+      return lookup_uniform<typename T::element>([&](int i) TWINSHADE_LAMBDA { return entry(i).value(); }, index);
     } else {
       T r = entry(0);
       for (int i = 1; i < n; ++i) r = select(index == I(i), entry(i), r);
@@ -75,10 +76,10 @@ TWINSHADE_INLINE constexpr auto lookup_element(Entry entry, const I& index) {
     }
   } else if constexpr (Vec<T>) {
     using E = typename T::element;
-    const auto component = [&]<int k>(std::integral_constant<int, k>) {
-      return lookup_element<n, E>([&](int i) -> const E& { return entry(i).template at<k>(); }, index);
+    const auto component = [&]<int k>(std::integral_constant<int, k>) TWINSHADE_LAMBDA {
+      return lookup_element<n, E>([&](int i) TWINSHADE_LAMBDA -> const E& { return entry(i).template at<k>(); }, index);
     };
-    return [&]<int... k>(std::integer_sequence<int, k...>) {
+    return [&]<int... k>(std::integer_sequence<int, k...>) TWINSHADE_LAMBDA {
       return typename Varying<T, I>::type(component(std::integral_constant<int, k>())...);
     }
     (Indices<T::size>());
@@ -86,14 +87,14 @@ TWINSHADE_INLINE constexpr auto lookup_element(Entry entry, const I& index) {
     using E = typename T::column;
     typename Varying<T, I>::type r;
     for (int k = 0; k < T::column_count; ++k) {
-      r.c[k] = lookup_element<n, E>([&](int i) -> const E& { return entry(i).c[k]; }, index);
+      r.c[k] = lookup_element<n, E>([&](int i) TWINSHADE_LAMBDA -> const E& { return entry(i).c[k]; }, index);
     }
     return r;
   } else if constexpr (Arr<T>) {
     using E = typename T::element;
     typename Varying<T, I>::type r;
     for (int k = 0; k < T::size; ++k) {
-      r.e[k] = lookup_element<n, E>([&](int i) -> const E& { return entry(i).e[k]; }, index);
+      r.e[k] = lookup_element<n, E>([&](int i) TWINSHADE_LAMBDA -> const E& { return entry(i).e[k]; }, index);
     }
     return r;
   } else {  // a struct: its select
@@ -108,16 +109,19 @@ TWINSHADE_INLINE constexpr auto lookup_element(Entry entry, const I& index) {
 // array[index], vector[index] (a component), matrix[index] (a column).
 template <class T, int n, Lane Index>
 TWINSHADE_INLINE constexpr auto lookup(const arr<T, n>& a, const Index& index) {
-  return detail::lookup_element<n, T>([&](int i) -> const T& { return a.e[i]; }, detail::clamped_index<n>(index));
+  return detail::lookup_element<n, T>([&](int i) TWINSHADE_LAMBDA -> const T& { return a.e[i]; },
+                                      detail::clamped_index<n>(index));
 }
 template <class T, int n, Lane Index>
 TWINSHADE_INLINE constexpr auto lookup(const vec<T, n>& v, const Index& index) {
-  return detail::lookup_element<n, T>([&](int i) -> const T& { return v[i]; }, detail::clamped_index<n>(index));
+  return detail::lookup_element<n, T>([&](int i) TWINSHADE_LAMBDA -> const T& { return v[i]; },
+                                      detail::clamped_index<n>(index));
 }
 template <class T, int c, int r, Lane Index>
 TWINSHADE_INLINE constexpr auto lookup(const mat<T, c, r>& m, const Index& index) {
   using C = typename mat<T, c, r>::column;
-  return detail::lookup_element<c, C>([&](int i) -> const C& { return m.c[i]; }, detail::clamped_index<c>(index));
+  return detail::lookup_element<c, C>([&](int i) TWINSHADE_LAMBDA -> const C& { return m.c[i]; },
+                                      detail::clamped_index<c>(index));
 }
 
 // array[index] = value in the lanes of the mask. The array is varying wherever mask, index or value are.

@@ -57,7 +57,9 @@ TWINSHADE_INLINE void for_each_component(T& value, std::uint32_t& at, F f) {
   if constexpr (Lane<V>) {
     f(at++, value);
   } else if constexpr (Vec<V>) {
-    [&]<int... k>(std::integer_sequence<int, k...>) { (for_each_component(value.template at<k>(), at, f), ...); }
+    [&]<int... k>(std::integer_sequence<int, k...>) TWINSHADE_LAMBDA {
+      (for_each_component(value.template at<k>(), at, f), ...);
+    }
     (Indices<V::size>());
   } else if constexpr (Mat<V>) {
     for (int i = 0; i < V::column_count; ++i) for_each_component(value.c[i], at, f);
@@ -91,7 +93,7 @@ class ShaderBase {
   template <class T>
   TWINSHADE_INLINE T input(std::uint32_t first_component) const {
     T r;
-    detail::for_each_component(r, first_component, [&](std::uint32_t component, auto& lanes) {
+    detail::for_each_component(r, first_component, [&](std::uint32_t component, auto& lanes) TWINSHADE_LAMBDA {
       using L = std::remove_reference_t<decltype(lanes)>;
       lanes = detail::load_component<N, L>(at(call_.inputs, component));
     });
@@ -99,9 +101,10 @@ class ShaderBase {
   }
   template <class T>
   TWINSHADE_INLINE void output(std::uint32_t first_component, const T& value) const {
-    detail::for_each_component(value, first_component, [&](std::uint32_t component, const auto& lanes) {
-      detail::store_component<N>(at(call_.outputs, component), varying(lanes));
-    });
+    detail::for_each_component(value, first_component,
+                               [&](std::uint32_t component, const auto& lanes) TWINSHADE_LAMBDA {
+                                 detail::store_component<N>(at(call_.outputs, component), varying(lanes));
+                               });
   }
   TWINSHADE_INLINE vec<F, 4> frag_coord() const {
     return {

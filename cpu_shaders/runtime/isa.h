@@ -26,7 +26,9 @@
 #define TWINSHADE_ISA_NUMBER_avx2 1
 #define TWINSHADE_ISA_NUMBER_avx512 2
 
+// A shader is one function made of thousands of small ones: past some size compilers stop inlining unless told.
 #define TWINSHADE_INLINE __attribute__((always_inline)) inline
+#define TWINSHADE_LAMBDA __attribute__((always_inline))  // after a lambda's parameters
 
 namespace twinshade {
 inline namespace TWINSHADE_ISA_NAMESPACE {

@@ -51,7 +51,7 @@ TWINSHADE_INLINE T fill(F f) {
 template <LaneOrVec T, Lane Offset>
 TWINSHADE_INLINE T load(const BufferView& view, const Offset& offset) {
   if constexpr (Vec<T>) {
-    return [&]<int... k>(std::integer_sequence<int, k...>) {
+    return [&]<int... k>(std::integer_sequence<int, k...>) TWINSHADE_LAMBDA {
       return T(load<typename T::element>(view, offset + Offset(static_cast<typename Offset::element>(4 * k)))...);
     }
     (detail::Indices<T::size>());
@@ -60,8 +60,9 @@ TWINSHADE_INLINE T load(const BufferView& view, const Offset& offset) {
     if constexpr (Offset::width == 1) {
       return T(memory::load_word<E>(view, static_cast<std::uint32_t>(offset.value())));
     } else {
-      return memory::fill<T>(
-          [&](int i) { return memory::load_word<E>(view, static_cast<std::uint32_t>(offset.lane(i))); });
+      return memory::fill<T>([&](int i) TWINSHADE_LAMBDA {
+        return memory::load_word<E>(view, static_cast<std::uint32_t>(offset.lane(i)));
+      });
     }
   }
 }
@@ -70,7 +71,7 @@ TWINSHADE_INLINE T load(const BufferView& view, const Offset& offset) {
 template <Lane M, Lane Offset, LaneOrVec V>
 TWINSHADE_INLINE void store(const M& m, const BufferView& view, const Offset& offset, const V& value) {
   if constexpr (Vec<V>) {
-    [&]<int... k>(std::integer_sequence<int, k...>) {
+    [&]<int... k>(std::integer_sequence<int, k...>) TWINSHADE_LAMBDA {
       (store(m, view, offset + Offset(static_cast<typename Offset::element>(4 * k)), value.template at<k>()), ...);
     }
     (detail::Indices<V::size>());
@@ -121,7 +122,7 @@ TWINSHADE_INLINE auto atomic(const M& m, const BufferView& view, const Offset& o
   template <Lane M, Lane Offset, Lane V>                                                                       \
   TWINSHADE_INLINE auto name(const M& m, const BufferView& view, const Offset& offset, const V& value) {       \
     using E = typename V::element;                                                                             \
-    return memory::atomic(m, view, offset, value, [](int, E old, E x) { (void)old; return E(result); });       \
+    return memory::atomic(m, view, offset, value, [](int, E old, E x) TWINSHADE_LAMBDA { (void)old; return E(result); });       \
   }
 TWINSHADE_ATOMIC(atomic_add, number::add(old, x))
 TWINSHADE_ATOMIC(atomic_min, number::minimum(old, x))
@@ -136,8 +137,9 @@ template <Lane M, Lane Offset, Lane C, Lane V>
 TWINSHADE_INLINE auto atomic_comp_swap(const M& m, const BufferView& view, const Offset& offset, const C& compare,
                                        const V& value) {
   using E = typename V::element;
-  return memory::atomic(m, view, offset, value,
-                        [&](int i, E old, E x) { return old == compare.lane(C::width == 1 ? 0 : i) ? x : old; });
+  return memory::atomic(m, view, offset, value, [&](int i, E old, E x) TWINSHADE_LAMBDA {
+    return old == compare.lane(C::width == 1 ? 0 : i) ? x : old;
+  });
 }
 
 }  // namespace TWINSHADE_ISA_NAMESPACE

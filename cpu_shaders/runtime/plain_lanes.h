@@ -79,69 +79,69 @@ struct Plain {
   friend TWINSHADE_INLINE constexpr Plain operator*(Plain a, Plain b) { return each<Plain>(number::multiply<E>, a, b); }
   friend TWINSHADE_INLINE constexpr Plain operator/(Plain a, Plain b) { return each<Plain>(number::divide<E>, a, b); }
   friend TWINSHADE_INLINE constexpr Plain operator%(Plain a, Plain b) {
-    return each<Plain>([](E x, E y) { return number::remainder(x, y); }, a, b);
+    return each<Plain>([](E x, E y) TWINSHADE_LAMBDA { return number::remainder(x, y); }, a, b);
   }
   friend TWINSHADE_INLINE constexpr Plain operator-(Plain a) { return each<Plain>(number::negate<E>, a); }
 
   // On bool these are the logical operators.
   friend TWINSHADE_INLINE constexpr Plain operator&(Plain a, Plain b) {
-    return each<Plain>([](E x, E y) { return static_cast<E>(x & y); }, a, b);
+    return each<Plain>([](E x, E y) TWINSHADE_LAMBDA { return static_cast<E>(x & y); }, a, b);
   }
   friend TWINSHADE_INLINE constexpr Plain operator|(Plain a, Plain b) {
-    return each<Plain>([](E x, E y) { return static_cast<E>(x | y); }, a, b);
+    return each<Plain>([](E x, E y) TWINSHADE_LAMBDA { return static_cast<E>(x | y); }, a, b);
   }
   friend TWINSHADE_INLINE constexpr Plain operator^(Plain a, Plain b) {
-    return each<Plain>([](E x, E y) { return static_cast<E>(x ^ y); }, a, b);
+    return each<Plain>([](E x, E y) TWINSHADE_LAMBDA { return static_cast<E>(x ^ y); }, a, b);
   }
   friend TWINSHADE_INLINE constexpr Plain operator~(Plain a) {
-    return each<Plain>([](E x) { return static_cast<E>(~x); }, a);
+    return each<Plain>([](E x) TWINSHADE_LAMBDA { return static_cast<E>(~x); }, a);
   }
   friend TWINSHADE_INLINE constexpr mask operator!(Plain a) {
-    return each<mask>([](E x) { return !x; }, a);
+    return each<mask>([](E x) TWINSHADE_LAMBDA { return !x; }, a);
   }
   // Both sides are evaluated.
   friend TWINSHADE_INLINE constexpr mask operator&&(Plain a, Plain b) { return a & b; }
   friend TWINSHADE_INLINE constexpr mask operator||(Plain a, Plain b) { return a | b; }
   friend TWINSHADE_INLINE constexpr Plain operator<<(Plain a, Plain<std::uint32_t, W> n) {
-    return each<Plain>([](E x, std::uint32_t k) { return number::shift_left(x, k); }, a, n);
+    return each<Plain>([](E x, std::uint32_t k) TWINSHADE_LAMBDA { return number::shift_left(x, k); }, a, n);
   }
   friend TWINSHADE_INLINE constexpr Plain operator<<(Plain a, Plain<std::int32_t, W> n) {
     return a << n.template to<std::uint32_t>();
   }
   friend TWINSHADE_INLINE constexpr Plain operator>>(Plain a, Plain<std::uint32_t, W> n) {
-    return each<Plain>([](E x, std::uint32_t k) { return number::shift_right(x, k); }, a, n);
+    return each<Plain>([](E x, std::uint32_t k) TWINSHADE_LAMBDA { return number::shift_right(x, k); }, a, n);
   }
   friend TWINSHADE_INLINE constexpr Plain operator>>(Plain a, Plain<std::int32_t, W> n) {
     return a >> n.template to<std::uint32_t>();
   }
 
   friend TWINSHADE_INLINE constexpr mask operator<(Plain a, Plain b) {
-    return each<mask>([](E x, E y) { return x < y; }, a, b);
+    return each<mask>([](E x, E y) TWINSHADE_LAMBDA { return x < y; }, a, b);
   }
   friend TWINSHADE_INLINE constexpr mask operator>(Plain a, Plain b) {
-    return each<mask>([](E x, E y) { return x > y; }, a, b);
+    return each<mask>([](E x, E y) TWINSHADE_LAMBDA { return x > y; }, a, b);
   }
   friend TWINSHADE_INLINE constexpr mask operator<=(Plain a, Plain b) {
-    return each<mask>([](E x, E y) { return x <= y; }, a, b);
+    return each<mask>([](E x, E y) TWINSHADE_LAMBDA { return x <= y; }, a, b);
   }
   friend TWINSHADE_INLINE constexpr mask operator>=(Plain a, Plain b) {
-    return each<mask>([](E x, E y) { return x >= y; }, a, b);
+    return each<mask>([](E x, E y) TWINSHADE_LAMBDA { return x >= y; }, a, b);
   }
   friend TWINSHADE_INLINE constexpr mask operator==(Plain a, Plain b) {
-    return each<mask>([](E x, E y) { return x == y; }, a, b);
+    return each<mask>([](E x, E y) TWINSHADE_LAMBDA { return x == y; }, a, b);
   }
   friend TWINSHADE_INLINE constexpr mask operator!=(Plain a, Plain b) {
-    return each<mask>([](E x, E y) { return x != y; }, a, b);
+    return each<mask>([](E x, E y) TWINSHADE_LAMBDA { return x != y; }, a, b);
   }
 
   friend TWINSHADE_INLINE constexpr Plain select(mask m, Plain a, Plain b) {
-    return each<Plain>([](bool c, E x, E y) { return c ? x : y; }, m, a, b);
+    return each<Plain>([](bool c, E x, E y) TWINSHADE_LAMBDA { return c ? x : y; }, m, a, b);
   }
   friend TWINSHADE_INLINE constexpr Plain lanes_min(Plain a, Plain b) { return each<Plain>(number::minimum<E>, a, b); }
   friend TWINSHADE_INLINE constexpr Plain lanes_max(Plain a, Plain b) { return each<Plain>(number::maximum<E>, a, b); }
   friend TWINSHADE_INLINE constexpr Plain lanes_abs(Plain a) {
     return each<Plain>(
-        [](E x) {
+        [](E x) TWINSHADE_LAMBDA {
           if constexpr (number::Real<E>)
             return number::absolute(x);
           else
@@ -150,19 +150,19 @@ struct Plain {
         a);
   }
   friend TWINSHADE_INLINE Plain lanes_sqrt(Plain a) {
-    return each<Plain>([](E x) { return number::square_root(x); }, a);
+    return each<Plain>([](E x) TWINSHADE_LAMBDA { return number::square_root(x); }, a);
   }
   friend TWINSHADE_INLINE Plain lanes_floor(Plain a) {
-    return each<Plain>([](E x) { return number::round_down(x); }, a);
+    return each<Plain>([](E x) TWINSHADE_LAMBDA { return number::round_down(x); }, a);
   }
   friend TWINSHADE_INLINE Plain lanes_ceil(Plain a) {
-    return each<Plain>([](E x) { return number::round_up(x); }, a);
+    return each<Plain>([](E x) TWINSHADE_LAMBDA { return number::round_up(x); }, a);
   }
   friend TWINSHADE_INLINE Plain lanes_trunc(Plain a) {
-    return each<Plain>([](E x) { return number::round_to_zero(x); }, a);
+    return each<Plain>([](E x) TWINSHADE_LAMBDA { return number::round_to_zero(x); }, a);
   }
   friend TWINSHADE_INLINE Plain lanes_round_even(Plain a) {
-    return each<Plain>([](E x) { return number::round_to_even(x); }, a);
+    return each<Plain>([](E x) TWINSHADE_LAMBDA { return number::round_to_even(x); }, a);
   }
 
   friend TWINSHADE_INLINE constexpr bool any(Plain a) {

@@ -28,7 +28,7 @@ inline constexpr bool is_simd<Lanes<W>> = true;
   inline constexpr bool has_##name = is_double<N>;                                                                 \
   template <class N, class... A>                                                                                   \
   TWINSHADE_INLINE typename N::F name(const A&... a) {                                                             \
-    return map_lanes([](auto... x) { return function(x...); }, typename N::F(a)...);                               \
+    return map_lanes([](auto... x) TWINSHADE_LAMBDA { return function(x...); }, typename N::F(a)...);                               \
   }
 TWINSHADE_SERVED_DOUBLE(exact_exp2, portable::exp2)
 TWINSHADE_SERVED_DOUBLE(exact_log2, portable::log2)
@@ -46,7 +46,7 @@ namespace detail {
 // A lane's value in all four channels of its texel, in the layout of transpose_groups' row j.
 template <int j, class V>
 TWINSHADE_INLINE V spread_lane(const V& lanes) {
-  return [&]<int... k>(std::integer_sequence<int, k...>) {
+  return [&]<int... k>(std::integer_sequence<int, k...>) TWINSHADE_LAMBDA {
     return __builtin_shufflevector(lanes, lanes, (k / 4 * 4 + j)...);
   }
   (std::make_integer_sequence<int, sizeof(V) / 4>());
@@ -64,10 +64,10 @@ TWINSHADE_INLINE vec<Simd<float, W>, 4> filtered_texels(const float* texels, con
                                                         const vec<Simd<float, W>, 4>& weight) {
   if constexpr (Simd<float, W>::whole) {
     Register<float, W> rows[4];
-    const auto row = [&]<int j>(std::integral_constant<int, j>) {
-      const auto texel = [&](int tap) {
-        return registers::texel_row<W>([&](int i) { return registers::load_texel(texels, taps.at[tap][first + i]); },
-                                       j);
+    const auto row = [&]<int j>(std::integral_constant<int, j>) TWINSHADE_LAMBDA {
+      const auto texel = [&](int tap) TWINSHADE_LAMBDA {
+        return registers::texel_row<W>(
+            [&](int i) TWINSHADE_LAMBDA { return registers::load_texel(texels, taps.at[tap][first + i]); }, j);
       };
       rows[j] = (texel(0) * spread_lane<j>(weight.x.v) + texel(1) * spread_lane<j>(weight.y.v)) +
                 (texel(2) * spread_lane<j>(weight.z.v) + texel(3) * spread_lane<j>(weight.w.v));

@@ -131,16 +131,16 @@ struct SimdMask : SimdBase<SimdMask<W>, SimdMask<W / 2>, std::int32_t, W> {
   }
 
   friend TWINSHADE_INLINE SimdMask operator&(SimdMask a, SimdMask b) {
-    return Base::template each<SimdMask>([](auto x, auto y) { return x & y; }, a, b);
+    return Base::template each<SimdMask>([](auto x, auto y) TWINSHADE_LAMBDA { return x & y; }, a, b);
   }
   friend TWINSHADE_INLINE SimdMask operator|(SimdMask a, SimdMask b) {
-    return Base::template each<SimdMask>([](auto x, auto y) { return x | y; }, a, b);
+    return Base::template each<SimdMask>([](auto x, auto y) TWINSHADE_LAMBDA { return x | y; }, a, b);
   }
   friend TWINSHADE_INLINE SimdMask operator^(SimdMask a, SimdMask b) {
-    return Base::template each<SimdMask>([](auto x, auto y) { return x ^ y; }, a, b);
+    return Base::template each<SimdMask>([](auto x, auto y) TWINSHADE_LAMBDA { return x ^ y; }, a, b);
   }
   friend TWINSHADE_INLINE SimdMask operator!(SimdMask a) {
-    return Base::template each<SimdMask>([](auto x) { return ~x; }, a);
+    return Base::template each<SimdMask>([](auto x) TWINSHADE_LAMBDA { return ~x; }, a);
   }
   // Both sides are evaluated.
   friend TWINSHADE_INLINE SimdMask operator&&(SimdMask a, SimdMask b) { return a & b; }
@@ -148,7 +148,8 @@ struct SimdMask : SimdBase<SimdMask<W>, SimdMask<W / 2>, std::int32_t, W> {
   friend TWINSHADE_INLINE SimdMask operator!=(SimdMask a, SimdMask b) { return a ^ b; }
   friend TWINSHADE_INLINE SimdMask operator==(SimdMask a, SimdMask b) { return !(a ^ b); }
   friend TWINSHADE_INLINE SimdMask select(SimdMask m, SimdMask a, SimdMask b) {
-    return Base::template each<SimdMask>([](auto c, auto x, auto y) { return (c & x) | (~c & y); }, m, a, b);
+    return Base::template each<SimdMask>([](auto c, auto x, auto y) TWINSHADE_LAMBDA { return (c & x) | (~c & y); }, m,
+                                         a, b);
   }
   friend TWINSHADE_INLINE bool any(SimdMask m) {
     if constexpr (Base::whole)
@@ -190,7 +191,8 @@ struct Simd : SimdBase<Simd<E, W>, Simd<E, W / 2>, E, W> {
   TWINSHADE_INLINE void store(E* to) const { this->store_elements(to); }
   // base[index] in each lane; indices must be in range.
   static TWINSHADE_INLINE Simd gather(const E* base, Simd<std::int32_t, W> index) {
-    return Base::template each<Simd>([base](auto i) { return registers::gather<E, sizeof(i) / 4>(base, i); }, index);
+    return Base::template each<Simd>(
+        [base](auto i) TWINSHADE_LAMBDA { return registers::gather<E, sizeof(i) / 4>(base, i); }, index);
   }
   // 0, 1, 2 ...
   static TWINSHADE_INLINE Simd ramp() {
@@ -202,7 +204,7 @@ struct Simd : SimdBase<Simd<E, W>, Simd<E, W / 2>, E, W> {
   template <class G>
   TWINSHADE_INLINE typename Base::template with<G> as() const {  // the same bits
     using R = typename Base::template with<G>;
-    return Base::template each<R>([](auto x) { return x; }, *this);
+    return Base::template each<R>([](auto x) TWINSHADE_LAMBDA { return x; }, *this);
   }
   template <class G>
   TWINSHADE_INLINE typename Base::template with<G> to() const {  // the same value; rounded, clamped where it cannot be
@@ -214,7 +216,7 @@ struct Simd : SimdBase<Simd<E, W>, Simd<E, W / 2>, E, W> {
     } else if constexpr (number::Integer<E> && number::Integer<G>) {
       return as<G>();
     } else if constexpr (std::same_as<E, float> && std::same_as<G, std::int32_t>) {
-      return Base::template each<R>([](auto x) { return registers::to_int(x); }, *this);
+      return Base::template each<R>([](auto x) TWINSHADE_LAMBDA { return registers::to_int(x); }, *this);
     } else if constexpr (std::same_as<E, float> && std::same_as<G, std::uint32_t>) {
       const Simd half(2147483648.0f);
       const R low = to<std::int32_t>().template as<std::uint32_t>();
@@ -223,7 +225,9 @@ struct Simd : SimdBase<Simd<E, W>, Simd<E, W / 2>, E, W> {
       return select(*this >= half + half, R(~0u), select(*this > Simd(0.0f), inside, R(0u)));
     } else if constexpr (std::same_as<E, std::int32_t>) {
       return Base::template each<R>(
-          [](auto x) { return __builtin_convertvector(x, typename RegisterOf<float, sizeof(x) / 4>::type); }, *this);
+          [](auto x)
+              TWINSHADE_LAMBDA { return __builtin_convertvector(x, typename RegisterOf<float, sizeof(x) / 4>::type); },
+          *this);
     } else {  // uint32 to float, rounded once: both halves and the product are exact
       const auto high = (*this >> Simd<std::uint32_t, W>(16u)).template as<std::int32_t>().template to<float>();
       const auto low = (*this & Simd(0xffffu)).template as<std::int32_t>().template to<float>();
@@ -232,72 +236,72 @@ struct Simd : SimdBase<Simd<E, W>, Simd<E, W / 2>, E, W> {
   }
 
   friend TWINSHADE_INLINE Simd operator+(Simd a, Simd b) {
-    return wrapping([](auto x, auto y) { return x + y; }, a, b);
+    return wrapping([](auto x, auto y) TWINSHADE_LAMBDA { return x + y; }, a, b);
   }
   friend TWINSHADE_INLINE Simd operator-(Simd a, Simd b) {
-    return wrapping([](auto x, auto y) { return x - y; }, a, b);
+    return wrapping([](auto x, auto y) TWINSHADE_LAMBDA { return x - y; }, a, b);
   }
   friend TWINSHADE_INLINE Simd operator*(Simd a, Simd b) {
-    return wrapping([](auto x, auto y) { return x * y; }, a, b);
+    return wrapping([](auto x, auto y) TWINSHADE_LAMBDA { return x * y; }, a, b);
   }
   friend TWINSHADE_INLINE Simd operator/(Simd a, Simd b) {
     if constexpr (real)
-      return Base::template each<Simd>([](auto x, auto y) { return x / y; }, a, b);
+      return Base::template each<Simd>([](auto x, auto y) TWINSHADE_LAMBDA { return x / y; }, a, b);
     else
       return map_lanes(number::divide<E>, a, b);
   }
   friend TWINSHADE_INLINE Simd operator%(Simd a, Simd b) {
-    return map_lanes([](E x, E y) { return number::remainder(x, y); }, a, b);
+    return map_lanes([](E x, E y) TWINSHADE_LAMBDA { return number::remainder(x, y); }, a, b);
   }
   friend TWINSHADE_INLINE Simd operator-(Simd a) {
-    return wrapping([](auto x) { return -x; }, a);
+    return wrapping([](auto x) TWINSHADE_LAMBDA { return -x; }, a);
   }
   friend TWINSHADE_INLINE Simd operator&(Simd a, Simd b) {
-    return Base::template each<Simd>([](auto x, auto y) { return x & y; }, a, b);
+    return Base::template each<Simd>([](auto x, auto y) TWINSHADE_LAMBDA { return x & y; }, a, b);
   }
   friend TWINSHADE_INLINE Simd operator|(Simd a, Simd b) {
-    return Base::template each<Simd>([](auto x, auto y) { return x | y; }, a, b);
+    return Base::template each<Simd>([](auto x, auto y) TWINSHADE_LAMBDA { return x | y; }, a, b);
   }
   friend TWINSHADE_INLINE Simd operator^(Simd a, Simd b) {
-    return Base::template each<Simd>([](auto x, auto y) { return x ^ y; }, a, b);
+    return Base::template each<Simd>([](auto x, auto y) TWINSHADE_LAMBDA { return x ^ y; }, a, b);
   }
   friend TWINSHADE_INLINE Simd operator~(Simd a) {
-    return Base::template each<Simd>([](auto x) { return ~x; }, a);
+    return Base::template each<Simd>([](auto x) TWINSHADE_LAMBDA { return ~x; }, a);
   }
   friend TWINSHADE_INLINE Simd operator<<(Simd a, Simd<std::uint32_t, W> n) {
-    return Base::template each<Simd>([](auto x, auto k) { return (decltype(k))x << (k & 31u); }, a, n);
+    return Base::template each<Simd>([](auto x, auto k) TWINSHADE_LAMBDA { return (decltype(k))x << (k & 31u); }, a, n);
   }
   friend TWINSHADE_INLINE Simd operator<<(Simd a, Simd<std::int32_t, W> n) {
     return a << n.template as<std::uint32_t>();
   }
   friend TWINSHADE_INLINE Simd operator>>(Simd a, Simd<std::uint32_t, W> n) {
-    return Base::template each<Simd>([](auto x, auto k) { return x >> (decltype(x))(k & 31u); }, a, n);
+    return Base::template each<Simd>([](auto x, auto k) TWINSHADE_LAMBDA { return x >> (decltype(x))(k & 31u); }, a, n);
   }
   friend TWINSHADE_INLINE Simd operator>>(Simd a, Simd<std::int32_t, W> n) {
     return a >> n.template as<std::uint32_t>();
   }
 
   friend TWINSHADE_INLINE mask operator<(Simd a, Simd b) {
-    return Base::template each<mask>([](auto x, auto y) { return x < y; }, a, b);
+    return Base::template each<mask>([](auto x, auto y) TWINSHADE_LAMBDA { return x < y; }, a, b);
   }
   friend TWINSHADE_INLINE mask operator>(Simd a, Simd b) {
-    return Base::template each<mask>([](auto x, auto y) { return x > y; }, a, b);
+    return Base::template each<mask>([](auto x, auto y) TWINSHADE_LAMBDA { return x > y; }, a, b);
   }
   friend TWINSHADE_INLINE mask operator<=(Simd a, Simd b) {
-    return Base::template each<mask>([](auto x, auto y) { return x <= y; }, a, b);
+    return Base::template each<mask>([](auto x, auto y) TWINSHADE_LAMBDA { return x <= y; }, a, b);
   }
   friend TWINSHADE_INLINE mask operator>=(Simd a, Simd b) {
-    return Base::template each<mask>([](auto x, auto y) { return x >= y; }, a, b);
+    return Base::template each<mask>([](auto x, auto y) TWINSHADE_LAMBDA { return x >= y; }, a, b);
   }
   friend TWINSHADE_INLINE mask operator==(Simd a, Simd b) {
-    return Base::template each<mask>([](auto x, auto y) { return x == y; }, a, b);
+    return Base::template each<mask>([](auto x, auto y) TWINSHADE_LAMBDA { return x == y; }, a, b);
   }
   friend TWINSHADE_INLINE mask operator!=(Simd a, Simd b) {
-    return Base::template each<mask>([](auto x, auto y) { return x != y; }, a, b);
+    return Base::template each<mask>([](auto x, auto y) TWINSHADE_LAMBDA { return x != y; }, a, b);
   }
 
   friend TWINSHADE_INLINE Simd select(mask m, Simd a, Simd b) {
-    return Base::template each<Simd>([](auto c, auto x, auto y) { return c ? x : y; }, m, a, b);
+    return Base::template each<Simd>([](auto c, auto x, auto y) TWINSHADE_LAMBDA { return c ? x : y; }, m, a, b);
   }
   // The other operand where one is NaN; of +0 and -0 the second.
   friend TWINSHADE_INLINE Simd lanes_min(Simd a, Simd b) {
@@ -319,29 +323,37 @@ struct Simd : SimdBase<Simd<E, W>, Simd<E, W / 2>, E, W> {
       return select(a < Simd(E{0}), -a, a);
   }
   friend TWINSHADE_INLINE Simd lanes_sqrt(Simd a) {
-    return Base::template each<Simd>([](auto x) { return registers::sqrt(x); }, a);
+    return Base::template each<Simd>([](auto x) TWINSHADE_LAMBDA { return registers::sqrt(x); }, a);
   }
   friend TWINSHADE_INLINE Simd lanes_floor(Simd a) {
-    return Base::template each<Simd>([](auto x) { return registers::floor(x); }, a);
+    return Base::template each<Simd>([](auto x) TWINSHADE_LAMBDA { return registers::floor(x); }, a);
   }
   friend TWINSHADE_INLINE Simd lanes_ceil(Simd a) {
-    return Base::template each<Simd>([](auto x) { return registers::ceil(x); }, a);
+    return Base::template each<Simd>([](auto x) TWINSHADE_LAMBDA { return registers::ceil(x); }, a);
   }
   friend TWINSHADE_INLINE Simd lanes_trunc(Simd a) {
-    return Base::template each<Simd>([](auto x) { return registers::trunc(x); }, a);
+    return Base::template each<Simd>([](auto x) TWINSHADE_LAMBDA { return registers::trunc(x); }, a);
   }
   friend TWINSHADE_INLINE Simd lanes_round_even(Simd a) {
-    return Base::template each<Simd>([](auto x) { return registers::round_even(x); }, a);
+    return Base::template each<Simd>([](auto x) TWINSHADE_LAMBDA { return registers::round_even(x); }, a);
   }
 
   // Values of the quad's neighbours: lanes are (x,y) (x+1,y) (x,y+1) (x+1,y+1), derivatives fine.
   friend TWINSHADE_INLINE Simd quad_dx(Simd a) {
     return Base::template each<Simd>(
-        [](auto x) { return permuted(x, [](int i) { return i | 1; }) - permuted(x, [](int i) { return i & ~1; }); }, a);
+        [](auto x) TWINSHADE_LAMBDA {
+          return permuted(x, [](int i) TWINSHADE_LAMBDA { return i | 1; }) -
+                 permuted(x, [](int i) TWINSHADE_LAMBDA { return i & ~1; });
+        },
+        a);
   }
   friend TWINSHADE_INLINE Simd quad_dy(Simd a) {
     return Base::template each<Simd>(
-        [](auto x) { return permuted(x, [](int i) { return i | 2; }) - permuted(x, [](int i) { return i & ~2; }); }, a);
+        [](auto x) TWINSHADE_LAMBDA {
+          return permuted(x, [](int i) TWINSHADE_LAMBDA { return i | 2; }) -
+                 permuted(x, [](int i) TWINSHADE_LAMBDA { return i & ~2; });
+        },
+        a);
   }
 
  private:

@@ -18,15 +18,16 @@ TWINSHADE_INLINE Float4 load_texel(const float* texels, std::uint32_t index) {
 template <class V>
 TWINSHADE_INLINE void transpose_groups(V (&rows)[4]) {
   constexpr int W = sizeof(V) / 4;
-  const auto shuffle = [&]<int... k>(const V& a, const V& b, auto pick, std::integer_sequence<int, k...>) {
+  const auto shuffle = [&]<int... k>(const V& a, const V& b, auto pick, std::integer_sequence<int, k...>)
+      TWINSHADE_LAMBDA {
     return __builtin_shufflevector(a, b, pick(k)...);
   };
   constexpr auto all = std::make_integer_sequence<int, W>();
   // pick(k): lane k of the result, numbers from W on being the second operand's.
-  constexpr auto low = [](int k) { return k / 4 * 4 + k % 4 / 2 + (k % 2 ? W : 0); };
-  constexpr auto high = [](int k) { return k / 4 * 4 + 2 + k % 4 / 2 + (k % 2 ? W : 0); };
-  constexpr auto low_pairs = [](int k) { return k / 4 * 4 + k % 2 + (k % 4 / 2 ? W : 0); };
-  constexpr auto high_pairs = [](int k) { return k / 4 * 4 + 2 + k % 2 + (k % 4 / 2 ? W : 0); };
+  constexpr auto low = [](int k) TWINSHADE_LAMBDA { return k / 4 * 4 + k % 4 / 2 + (k % 2 ? W : 0); };
+  constexpr auto high = [](int k) TWINSHADE_LAMBDA { return k / 4 * 4 + 2 + k % 4 / 2 + (k % 2 ? W : 0); };
+  constexpr auto low_pairs = [](int k) TWINSHADE_LAMBDA { return k / 4 * 4 + k % 2 + (k % 4 / 2 ? W : 0); };
+  constexpr auto high_pairs = [](int k) TWINSHADE_LAMBDA { return k / 4 * 4 + 2 + k % 2 + (k % 4 / 2 ? W : 0); };
   const V a = shuffle(rows[0], rows[1], low, all), b = shuffle(rows[2], rows[3], low, all);
   const V c = shuffle(rows[0], rows[1], high, all), d = shuffle(rows[2], rows[3], high, all);
   rows[0] = shuffle(a, b, low_pairs, all);
@@ -37,7 +38,9 @@ TWINSHADE_INLINE void transpose_groups(V (&rows)[4]) {
 
 template <class V>
 TWINSHADE_INLINE auto concatenate(const V& a, const V& b) {
-  return [&]<int... k>(std::integer_sequence<int, k...>) { return __builtin_shufflevector(a, b, k...); }
+  return [&]<int... k>(std::integer_sequence<int, k...>) TWINSHADE_LAMBDA {
+    return __builtin_shufflevector(a, b, k...);
+  }
   (std::make_integer_sequence<int, 2 * sizeof(V) / 4>());
 }
 
@@ -70,7 +73,7 @@ TWINSHADE_INLINE vec<Simd<float, W>, 4> transposed_texels(Load load) {
     rgba.w.v = rows[3];
   } else {
     const auto low = transposed_texels<W / 2>(load);
-    const auto high = transposed_texels<W / 2>([&](int i) { return load(i + W / 2); });
+    const auto high = transposed_texels<W / 2>([&](int i) TWINSHADE_LAMBDA { return load(i + W / 2); });
     rgba.x.lo = low.x, rgba.y.lo = low.y, rgba.z.lo = low.z, rgba.w.lo = low.w;
     rgba.x.hi = high.x, rgba.y.hi = high.y, rgba.z.hi = high.z, rgba.w.hi = high.w;
   }
@@ -85,7 +88,7 @@ TWINSHADE_INLINE vec<Simd<float, W>, 4> load_texels(const float* texels, const S
   static_assert(std::same_as<Real, float>);
   std::uint32_t at[W];
   index.store(at);
-  return detail::transposed_texels<W>([&](int i) { return registers::load_texel(texels, at[i]); });
+  return detail::transposed_texels<W>([&](int i) TWINSHADE_LAMBDA { return registers::load_texel(texels, at[i]); });
 }
 template <class Real, int W>
 TWINSHADE_INLINE vec<Plain<Real, W>, 4> load_texels(const float* texels, const Plain<std::uint32_t, W>& index) {

@@ -35,10 +35,11 @@ const ShaderEntry& choose_entry(const ShaderModule& module, Number number, std::
     throw UserError(std::string("this processor has no ") + isa_name(*isa) + ": the best it has is " +
                     isa_name(machine));
   const ShaderEntry* entry = find_entry(module, number, isa.value_or(machine));
-  if (!isa && number == Number::lanes16 && machine == Isa::avx2) {
-    const ShaderEntry* natural = find_entry(module, Number::lanes8, machine);
-    if (natural && (!entry || natural->isa > entry->isa)) entry = natural;
-  }
+  if (!isa && number == Number::lanes16)
+    for (const Number fewer : {Number::lanes8, Number::lanes4}) {
+      const ShaderEntry* natural = find_entry(module, fewer, machine);
+      if (natural && (!entry || natural->isa > entry->isa)) entry = natural;
+    }
   if (entry) return *entry;
   std::string reason = std::string("shader \"") + module.name + "\" has no code for " + number_name(number);
   if (isa) reason += std::string(" on ") + isa_name(*isa);

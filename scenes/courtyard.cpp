@@ -251,14 +251,14 @@ Scene make_courtyard(std::uint32_t triangles) {
   }
   add_fountain(mesh, materials);
   int number = 0;
-  for (const dvec2& place : {dvec2(-4.3, -3.1), dvec2(4.3, -3.1), dvec2(4.3, 3.1), dvec2(-4.3, 3.1)}) {
+  for (const dvec2& place : {dvec2(-2.7, -3.8), dvec2(2.7, -3.8), dvec2(2.7, 3.8), dvec2(-2.7, 3.8)}) {
     add_pedestal(mesh, {place.x, 0, place.y}, materials.marble, materials.ashlar);
     add_figure(mesh, {place.x, kPedestalHeight, place.y}, number++, materials.marble);
   }
   mesh.build(scene, triangles);
 
   scene.camera.eye = {6.3, 1.75, 0.9};
-  scene.camera.target = {-2.4, 1.50, -1.75};
+  scene.camera.target = {-2.4, 1.40, -1.70};
   scene.camera.vertical_fov_degrees = 54;
   scene.camera.near_plane = 0.1;
   scene.camera.far_plane = 60;

@@ -15,7 +15,8 @@ double value_noise(double x, double y, std::int32_t period, std::uint32_t seed);
 // Sum of `octaves` of value_noise, each at twice the frequency and half the amplitude; repeats after `period`.
 double fractal_noise(double x, double y, std::int32_t period, int octaves, std::uint32_t seed);
 
-// Numbers in a row, for generators.
+// Numbers in a row, for generators. Draw each in its own statement or in a braced list: the arguments of a call are
+// evaluated in any order.
 class Random {
  public:
   explicit Random(std::uint32_t seed) : seed_(seed) {}

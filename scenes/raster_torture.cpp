@@ -38,14 +38,15 @@ class Torture {
     const dvec3 place = glm::clamp(dvec3(clip) / scale, dvec3(-8), dvec3(8));
     scene_.positions.emplace_back(place);
     Random own(id * 2654435761u + 5);
-    const dvec3 normal = glm::normalize(dvec3(own.between(-1, 1), own.between(-1, 1), own.between(0.2, 1)));
+    const dvec3 normal = glm::normalize(dvec3{own.between(-1, 1), own.between(-1, 1), own.between(0.2, 1)});
     const double angle = own.between(0, 2 * portable::kPi);
+    const bool mirrored = own.bits() & 1;
     const dvec3 tangent = orthonormal_tangent(normal), bitangent = glm::cross(normal, tangent);
     const dvec3 turned = tangent * portable::cos(angle) + bitangent * portable::sin(angle);
     scene_.normals.emplace_back(normal);
     scene_.tangents.push_back(
-        tangent_frame(normal, turned, own.bits() & 1 ? glm::cross(normal, turned) : glm::cross(turned, normal)));
-    scene_.uvs.emplace_back(dvec2(place) * 1.5 + dvec2(own.uniform(), own.uniform()) * 0.3);
+        tangent_frame(normal, turned, mirrored ? glm::cross(normal, turned) : glm::cross(turned, normal)));
+    scene_.uvs.emplace_back(dvec2(place) * 1.5 + dvec2{own.uniform(), own.uniform()} * 0.3);
     return id;
   }
 
@@ -54,6 +55,8 @@ class Torture {
     scene_.triangle_materials.push_back(0);
   }
 
+  // Numbers drawn together stand in braces, which are evaluated in order; arguments are not.
+  dvec2 within(double half) { return {random_.between(-half, half), random_.between(-half, half)}; }
   // A point within the screen, sometimes a little outside.
   dvec3 somewhere() { return {random_.between(-1.1, 1.1), random_.between(-1.1, 1.1), random_.between(-0.98, 0.98)}; }
 
@@ -69,9 +72,9 @@ void backdrop(Torture& t, int cells) {
     for (int i = 0; i <= cells; ++i) {
       const bool rim = i == 0 || j == 0 || i == cells || j == cells;
       const double shake = rim ? 0 : 0.8 / cells;
-      grid.push_back(t.vertex(2.0 * i / cells - 1 + t.random().between(-shake, shake),
-                              2.0 * j / cells - 1 + t.random().between(-shake, shake), t.random().between(0.985, 0.999),
-                              t.random().between(0.5, 8)));
+      const dvec2 at = dvec2(2.0 * i / cells - 1, 2.0 * j / cells - 1) + t.within(shake);
+      const double depth = t.random().between(0.985, 0.999), w = t.random().between(0.5, 8);
+      grid.push_back(t.vertex(at.x, at.y, depth, w));
     }
   for (int j = 0; j < cells; ++j)
     for (int i = 0; i < cells; ++i) {
@@ -89,9 +92,10 @@ void small_ones(Torture& t, int count) {
     const double size = 0.012 * portable::exp2(-8 * t.random().uniform());
     const dvec3 at = t.somewhere();
     std::array<std::uint32_t, 3> v;
-    for (auto& id : v)
-      id = t.vertex(at.x + t.random().between(-size, size), at.y + t.random().between(-size, size), at.z,
-                    t.random().between(0.2, 20));
+    for (auto& id : v) {
+      const dvec2 corner = dvec2(at) + t.within(size);
+      id = t.vertex(corner.x, corner.y, at.z, t.random().between(0.2, 20));
+    }
     t.triangle(v[0], v[1], v[2]);
   }
 }
@@ -104,9 +108,9 @@ void slivers(Torture& t, int count) {
     const double length = t.random().between(0.05, 1.2), width = portable::exp2(-4 - 18 * t.random().uniform());
     const dvec2 along(portable::cos(angle) * length, portable::sin(angle) * length);
     const dvec2 across(-along.y * width, along.x * width);
+    const double other_depth = t.random().between(-0.9, 0.9);
     const std::uint32_t a = t.vertex(at.x, at.y, at.z, t.random().between(0.5, 4));
-    const std::uint32_t b =
-        t.vertex(at.x + along.x, at.y + along.y, t.random().between(-0.9, 0.9), t.random().between(0.5, 4));
+    const std::uint32_t b = t.vertex(at.x + along.x, at.y + along.y, other_depth, t.random().between(0.5, 4));
     const double s = t.random().uniform();
     const std::uint32_t c =
         t.vertex(at.x + along.x * s + across.x, at.y + along.y * s + across.y, at.z, t.random().between(0.5, 4));
@@ -157,10 +161,10 @@ void near_crossings(Torture& t, int count) {
   const double a = (kFar + kNear) / (kFar - kNear), b = 2 * kFar * kNear / (kFar - kNear);
   for (int i = 0; i < count; ++i) {
     std::array<std::uint32_t, 3> v;
-    const dvec3 middle(t.random().between(-3, 3), t.random().between(-2, 2), t.random().between(-2, 4));
+    const dvec3 middle{t.random().between(-3, 3), t.random().between(-2, 2), t.random().between(-2, 4)};
     for (std::size_t k = 0; k < 3; ++k) {
       dvec3 at =
-          middle + dvec3(t.random().between(-1.5, 1.5), t.random().between(-1.5, 1.5), t.random().between(-3, 3));
+          middle + dvec3{t.random().between(-1.5, 1.5), t.random().between(-1.5, 1.5), t.random().between(-3, 3)};
       if (i % 8 == 0 && k == 0) at.z = kNear;  // on the plane up to rounding
       if (i % 8 == 1 && k == 1) at.z = 0;      // in the eye's plane: w = 0
       if (i % 8 == 2 && k == 2) at.z = 80;     // beyond the far plane
@@ -214,8 +218,10 @@ void depth_ties(Torture& t, int count) {
     const dvec3 at = t.somewhere();
     const double depth = std::floor(at.z * 64) / 64;
     std::array<std::uint32_t, 5> v;
-    for (auto& id : v)
-      id = t.vertex(at.x + t.random().between(-0.12, 0.12), at.y + t.random().between(-0.12, 0.12), depth);
+    for (auto& id : v) {
+      const dvec2 corner = dvec2(at) + t.within(0.12);
+      id = t.vertex(corner.x, corner.y, depth);
+    }
     t.triangle(v[0], v[1], v[2]);
     t.triangle(v[0], v[1], v[2]);
     t.triangle(v[2], v[1], v[0]);

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/portable_math.h"
-#include "scenes/noise.h"
 
 namespace twinshade {
 namespace {
@@ -49,9 +48,9 @@ void add_figure(PatchMesh& mesh, const dvec3& foot, int number, const Finish& fi
   constexpr double kHeight = 1.46;  // to the neck's end
   // Half widths from the hem to the neck, side to side and front to back.
   static constexpr std::array<double, 12> kSide = {0.27,  0.25, 0.235, 0.23,  0.235, 0.225,
-                                                   0.185, 0.19, 0.225, 0.245, 0.12,  0.058};
+                                                   0.185, 0.19, 0.215, 0.232, 0.165, 0.056};
   static constexpr std::array<double, 12> kFront = {0.25,  0.225, 0.205, 0.195, 0.19,  0.175,
-                                                    0.145, 0.155, 0.165, 0.135, 0.085, 0.058};
+                                                    0.145, 0.155, 0.165, 0.150, 0.105, 0.056};
   const double turn = 0.7 * number + 0.3, phase = 1.9 * number, folds = 9 + 2 * (number % 3);
   const double lean = number % 2 == 0 ? 1 : -1;
   const double cosine = portable::cos(turn), sine = portable::sin(turn);

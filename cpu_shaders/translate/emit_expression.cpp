@@ -98,13 +98,35 @@ void FunctionEmitter::before_write(Id root) {
 
 void FunctionEmitter::settle_effects() { before_write(kEffects); }
 
+namespace {
+bool is_shift(spv::Op op) {
+  return op == spv::OpShiftLeftLogical || op == spv::OpShiftRightLogical || op == spv::OpShiftRightArithmetic;
+}
+}  // namespace
+
+// SPIR-V lets int and uint meet in one instruction; our types do not. The kind that both operands must have.
+Kind FunctionEmitter::signedness(const Instruction& i) const {
+  const Kind result = module_.scalar_kind(i.type);
+  return result == Kind::boolean ? module_.scalar_kind(module_.value_types.at(i.operands[0])) : result;
+}
+
+Expression FunctionEmitter::operand_as(Id id, Kind wanted) {
+  const Kind kind = module_.scalar_kind(module_.value_types.at(id));
+  Expression e = value(id);
+  if (kind == wanted || (kind != Kind::integer && kind != Kind::unsigned_integer)) return e;
+  e.text = (wanted == Kind::integer ? "to_int(" : "to_uint(") + e.text + ")";
+  e.precedence = 1;
+  return e;
+}
+
 Expression FunctionEmitter::binary(const Instruction& i, const char* op, int precedence) {
-  const Expression left = value(i.operands[0]), right = value(i.operands[1]);
+  const Expression left = operand_as(i.operands[0], signedness(i)),
+                   right = is_shift(i.op) ? value(i.operands[1]) : operand_as(i.operands[1], signedness(i));
   // Where compilers ask for parentheses, readers want them too.
   const bool plain = precedence == 5 || precedence == 6;
   const auto wrap = [&](const Expression& x, bool is_right) {
     const bool needs = plain ? x.precedence > precedence || (is_right && x.precedence == precedence)
-                             : x.precedence > (precedence < 9 ? 3 : 6);
+                             : x.precedence > (precedence < 9 || (precedence > 10 && precedence < 14) ? 3 : 6);
     return needs ? "(" + x.text + ")" : x.text;
   };
   Expression e;

@@ -58,6 +58,8 @@ class FunctionEmitter {
   void instruction(const Instruction& i);
   bool arithmetic(const Instruction& i);
   bool texture(const Instruction& i);
+  Kind signedness(const Instruction& i) const;
+  Expression operand_as(Id id, Kind wanted);
   Expression binary(const Instruction& i, const char* op, int precedence);
   Expression call_text(const Instruction& i, const std::string& function, const std::vector<Id>& arguments);
   Expression extended(const Instruction& i);

@@ -21,11 +21,12 @@ const std::set<std::string>& reserved() {
       "uvec3", "uvec4", "bvec2", "bvec3", "bvec4", "mat2", "mat3", "mat4", "sampler2D", "sampler2DArray", "samplerCube",
       "select", "assign", "any", "all", "none", "lookup", "store_lookup", "update", "leave", "swizzle", "load", "store",
       "to_float", "to_int", "to_uint", "to_bool", "float_as_int", "float_as_uint", "int_as_float", "uint_as_float",
-      "constant", "input", "output", "frag_coord", "front_facing", "primitive_id", "live", "frag_depth", "kept",
-      "begin", "finish", "run", "texture_2d", "texture_2d_array", "texture_cube", "buffer", "uniforms", "data", "call",
-      "first", "memory", "array_length", "map", "Lane", "Vec", "Mat", "Arr", "Lanes", "Scalar32", "Scalar64", "Quad32",
-      "Quad64", "Plain", "Simd", "SimdMask", "BufferView", "TextureView", "ShaderData", "ShadeCall", "ShaderBase",
-      "ShaderEntry", "ShaderModule", "number", "detail", "registers", "bundle", "portable"};
+      "constant", "input", "output", "frag_coord", "front_facing", "primitive_id", "first_", "data_", "call_", "real",
+      "live", "frag_depth", "kept", "begin", "finish", "run", "texture_2d", "texture_2d_array", "texture_cube",
+      "buffer", "uniforms", "data", "call", "first", "memory", "array_length", "map", "Lane", "Vec", "Mat", "Arr",
+      "Lanes", "Scalar32", "Scalar64", "Quad32", "Quad64", "Plain", "Simd", "SimdMask", "BufferView", "TextureView",
+      "ShaderData", "ShadeCall", "ShaderBase", "ShaderEntry", "ShaderModule", "number", "detail", "registers", "bundle",
+      "portable"};
   return words;
 }
 
@@ -34,7 +35,9 @@ const std::set<std::string>& reserved() {
 NameTable::NameTable() { open(); }
 
 bool NameTable::taken(const std::string& name) const {
-  if (reserved().count(name) || name.rfind("uniform_", 0) == 0 || name.rfind("TWINSHADE_", 0) == 0) return true;
+  if (reserved().count(name)) return true;
+  // Aliases of uniform types, the runtime's macros.
+  if ((name.rfind("uniform_", 0) == 0 || name.rfind("TWINSHADE_", 0) == 0) && name.back() != '_') return true;
   for (const auto& scope : scopes_)
     if (scope.count(name)) return true;
   return false;

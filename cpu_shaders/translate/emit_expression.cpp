@@ -13,7 +13,8 @@ void FunctionEmitter::refuse(const Instruction& i, const std::string& what, cons
 }
 
 void FunctionEmitter::no_float64(const Instruction& i, const std::string& what) {
-  if (shared_.no_float64_reason.empty()) shared_.no_float64_reason = module_.position(i).text() + ": " + what;
+  if (runs_in_double_ && shared_.no_float64_reason.empty())
+    shared_.no_float64_reason = module_.position(i).text() + ": " + what;
 }
 
 Expression FunctionEmitter::value(Id id) {

@@ -38,7 +38,8 @@ inline constexpr Id kEffects = ~0u - 1;
 
 class FunctionEmitter {
  public:
-  FunctionEmitter(Emission& shared, const Instance& instance);
+  // runs_in_double: reachable in float64, where some functions are replaced by the runtime's.
+  FunctionEmitter(Emission& shared, const Instance& instance, bool runs_in_double);
   void run();
 
  private:
@@ -155,6 +156,7 @@ class FunctionEmitter {
   NameTable& names_;
   Writer& out_;
   Regions regions_;
+  const bool runs_in_double_;
   std::map<Id, Expression> values_;
   std::vector<Pending> pending_;
   std::map<Id, std::string> variables_;

@@ -4,6 +4,7 @@
 #include <regex>
 
 #include "cpu_shaders/translate/emit_function.h"
+#include "cpu_shaders/translate/served.h"
 
 namespace twinshade::spirv {
 namespace {
@@ -312,7 +313,15 @@ class ModuleEmitter {
     }
   }
 
+  // Instances that run in float64: all that main reaches but through functions that the runtime serves in double.
+  void reach_in_double(const Instance& at, std::set<const Instance*>& reached) const {
+    if (is_served_in_double(module_, *at.info->function) || !reached.insert(&at).second) return;
+    for (const auto& [call, callee] : at.callees) reach_in_double(*callee, reached);
+  }
+
   void write_functions() {
+    std::set<const Instance*> in_double;
+    reach_in_double(*instances_.main, in_double);
     std::vector<const Instance*> order(instances_.callees_first.begin(), instances_.callees_first.end());
     const auto place = [&](const Instance* i) {
       return lines_.order(module_.position(i->info->function->file, i->info->function->line));
@@ -321,7 +330,7 @@ class ModuleEmitter {
                      [&](const Instance* a, const Instance* b) { return place(a) < place(b); });
     for (const Instance* i : order) {
       shared_.out.line("");
-      FunctionEmitter(shared_, *i).run();
+      FunctionEmitter(shared_, *i, in_double.count(i) != 0).run();
     }
   }
 

@@ -3,10 +3,11 @@
 #include <algorithm>
 
 #include "cpu_shaders/translate/emit_function.h"
+#include "cpu_shaders/translate/served.h"
 
 namespace twinshade::spirv {
 
-FunctionEmitter::FunctionEmitter(Emission& shared, const Instance& instance)
+FunctionEmitter::FunctionEmitter(Emission& shared, const Instance& instance, bool runs_in_double)
     : shared_(shared),
       at_(instance),
       info_(*instance.info),
@@ -15,7 +16,8 @@ FunctionEmitter::FunctionEmitter(Emission& shared, const Instance& instance)
       types_(shared.types),
       names_(shared.names),
       out_(shared.out),
-      regions_(Regions::find(shared.program, instance)) {}
+      regions_(Regions::find(shared.program, instance)),
+      runs_in_double_(runs_in_double) {}
 
 void FunctionEmitter::position(std::uint32_t file, int line) {
   if (line == 0) return;
@@ -41,7 +43,7 @@ std::string FunctionEmitter::narrowed(const std::string& condition, int preceden
 void FunctionEmitter::run() {
   names_.open();
   const auto& parameters = info_.function->parameters;
-  std::string list_text;
+  std::string list_text, argument_text;
   if (at_.needs_mask) {
     masks_.push_back({names_.declare("mask"), nullptr, false, 0});
     list_text = "B " + mask();
@@ -60,6 +62,7 @@ void FunctionEmitter::run() {
       text = "const " + text + "&";
     const std::string name = declare(p.id, module_.name(p.id));
     list_text += (list_text.empty() ? "" : ", ") + text + " " + name;
+    argument_text += (k == 0 ? "" : ", ") + name;
     Expression e;
     e.text = name;
     e.precedence = 1;
@@ -70,6 +73,15 @@ void FunctionEmitter::run() {
   const std::string result = returns_value ? types_.name(result_type, at_.result_varying) : "void";
   position(info_.function->file, info_.function->line);
   out_.open("TWINSHADE_INLINE " + result + " " + at_.name + "(" + list_text + ") {");
+  const bool served = is_served(module_, *info_.function);
+  if (served) {
+    const std::string& name = info_.function->name;
+    // One number serves all lanes where all arguments are the same for all.
+    const std::string policy = at_.result_varying ? "N" : "Steps<typename N::real, 1>";
+    out_.line("if constexpr (served::has_" + name + "<N>) {");
+    out_.line("  return served::" + name + "<" + policy + ">(" + argument_text + ");");
+    out_.open("} else {");
+  }
   if (at_.divergent_return) {
     if (masks_.empty()) {
       masks_.push_back({names_.declare("mask"), nullptr, false, 0});
@@ -83,6 +95,7 @@ void FunctionEmitter::run() {
   list(info_.body.list, nullptr);
   const bool ends_in_return = !info_.body.list.empty() && info_.body.list.back()->shape == Shape::give_back;
   if (returns_value && !ends_in_return) out_.line("return " + (result_.empty() ? result + "{}" : result_) + ";");
+  if (served) out_.close("}");
   out_.close("}");
   names_.close();
 }

@@ -18,8 +18,8 @@ const RowShader& shader() {
   return made;
 }
 
-// Denormal arguments are zero, as shaders have it.
-long double flushed(float x) { return std::fabs(x) < 0x1p-126f ? 0.0L : static_cast<long double>(x); }
+// Denormal arguments are zeros of their sign, as shaders have it.
+long double flushed(float x) { return std::fabs(x) < 0x1p-126f ? std::copysign(0.0L, x) : static_cast<long double>(x); }
 
 long double exact(Function function, float x, float y) {
   switch (function) {
@@ -34,7 +34,7 @@ long double exact(Function function, float x, float y) {
     case Function::cos:
       return std::cos(flushed(x));
     case Function::atan2:
-      return std::atan2(flushed(x), flushed(y));
+      return flushed(x) == 0 && flushed(y) == 0 ? flushed(x) : std::atan2(flushed(x), flushed(y));
     case Function::acos:
       return std::acos(flushed(x));
     case Function::asin:

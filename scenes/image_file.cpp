@@ -15,6 +15,7 @@ namespace twinshade {
 namespace {
 
 constexpr int kLargestSide = 65536;
+constexpr double kMostSamples = 0x1p30;  // 4 GiB as floats
 
 [[noreturn]] void refuse(const std::string& name, std::string reason) {
   reason = reason.substr(0, reason.find('\n'));
@@ -80,7 +81,8 @@ void check_whole(std::string_view bytes, const std::string& name) {
 
 DecodedImage read_all(OIIO::ImageInput& input, const std::string& name) {
   const OIIO::ImageSpec spec = input.spec();
-  if (spec.width < 1 || spec.height < 1 || spec.width > kLargestSide || spec.height > kLargestSide || spec.depth > 1)
+  if (spec.width < 1 || spec.height < 1 || spec.width > kLargestSide || spec.height > kLargestSide || spec.depth > 1 ||
+      double(spec.width) * spec.height * spec.nchannels > kMostSamples)
     refuse(name, "its size is " + std::to_string(spec.width) + " x " + std::to_string(spec.height));
   if (spec.deep) refuse(name, "deep images are not supported");
   if (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||

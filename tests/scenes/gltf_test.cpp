@@ -482,8 +482,6 @@ TEST_CASE("MikkTSpace makes BoomBox's own tangents again") {
     close += glm::dot(dvec3(a), dvec3(b)) > 0.99;
     sign += a.w == b.w;
   }
-  MESSAGE("within 8 degrees: " << 100.0 * double(close) / double(own.indices.size())
-                               << "%, sign: " << 100.0 * double(sign) / double(own.indices.size()) << "%");
   CHECK(double(sign) > 0.99 * double(own.indices.size()));
   CHECK(double(close) > 0.97 * double(own.indices.size()));
 }

@@ -331,10 +331,30 @@ TWINSHADE_INLINE constexpr auto operator==(const A& a, const B& b) {
   for (int i = 1; i < A::size; ++i) r = r & (a.e[i] == b.e[i]);
   return r;
 }
-template <class A, class B>
-requires((Vec<A> && Vec<B>) || (Mat<A> && Mat<B>) || (Arr<A> && Arr<B>)) TWINSHADE_INLINE constexpr auto operator!=(
-    const A& a, const B& b) {
+// One for each ==, equally constrained: C++20 would rather rewrite a == that fits better.
+template <Vec A, Vec B>
+TWINSHADE_INLINE constexpr auto operator!=(const A& a, const B& b) {
   return !(a == b);
+}
+template <Mat A, Mat B>
+TWINSHADE_INLINE constexpr auto operator!=(const A& a, const B& b) {
+  return !(a == b);
+}
+template <Arr A, Arr B>
+TWINSHADE_INLINE constexpr auto operator!=(const A& a, const B& b) {
+  return !(a == b);
+}
+
+// A uniform integer shifted by a varying count of the other signedness; all other shifts are friends of the lane types.
+template <number::Integer E, Lane Count>
+requires(Count::width != 1 && !std::same_as<typename Count::element, E>) TWINSHADE_INLINE constexpr auto operator<<(
+    Plain<E, 1> a, const Count& count) {
+  return typename Count::template with<E>(a) << count;
+}
+template <number::Integer E, Lane Count>
+requires(Count::width != 1 && !std::same_as<typename Count::element, E>) TWINSHADE_INLINE constexpr auto operator>>(
+    Plain<E, 1> a, const Count& count) {
+  return typename Count::template with<E>(a) >> count;
 }
 
 // --- swizzles: swizzle<0, 0, 2>(v) is v.xxz

@@ -59,6 +59,7 @@ inline double asinh(double x) {
   return x < 0 ? -value : x == 0 ? x : value;
 }
 inline double acosh(double x) {
+  if (!(x >= 1)) return __builtin_nan("");
   if (x > 0x1p+500) return portable::log(x) + portable::log(2);
   const double t = x - 1;
   return log1p(t + __builtin_sqrt(2 * t + t * t));

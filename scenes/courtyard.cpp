@@ -258,7 +258,7 @@ Scene make_courtyard(std::uint32_t triangles) {
   mesh.build(scene, triangles);
 
   scene.camera.eye = {6.3, 1.75, 0.9};
-  scene.camera.target = {-2.4, 1.40, -1.70};
+  scene.camera.target = {-2.4, 1.36, -1.70};
   scene.camera.vertical_fov_degrees = 54;
   scene.camera.near_plane = 0.1;
   scene.camera.far_plane = 60;

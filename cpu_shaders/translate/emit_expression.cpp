@@ -225,6 +225,11 @@ Expression FunctionEmitter::select(const Instruction& i) {
   return e;
 }
 
+Id FunctionEmitter::passed(Id argument) const {
+  const auto found = direct_.variable.find(argument);
+  return found == direct_.variable.end() ? argument : found->second;
+}
+
 void FunctionEmitter::call(const Instruction& i) {
   settle_effects();
   const Instance& callee = *at_.callees.at(&i);
@@ -239,8 +244,7 @@ void FunctionEmitter::call(const Instruction& i) {
       e.reads.insert(a.reads.begin(), a.reads.end());
       arguments.push_back(a.text);
     } else {
-      const Place p = place(id);
-      const Expression a = load(p);
+      const Expression a = load(place(passed(id)));
       e.reads.insert(a.reads.begin(), a.reads.end());
       arguments.push_back(a.text);
     }
@@ -259,7 +263,7 @@ void FunctionEmitter::call(const Instruction& i) {
   for (Id g : info.globals_written) before_write(g);
   if (info.writes_buffers) before_write(kBuffers);
   for (std::size_t k = 0; k + 1 < i.operands.size(); ++k)
-    if (info.is_reference(k)) before_write(root_of(info_, i.operands[k + 1]));
+    if (info.is_reference(k)) before_write(root_of(info_, passed(i.operands[k + 1])));
   e.reads.insert(kEffects);
   define(i, std::move(e));
 }

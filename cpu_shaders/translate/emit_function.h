@@ -67,6 +67,7 @@ class FunctionEmitter {
   Expression composite(const Instruction& i);
   Expression extract(const Instruction& i);
   Expression select(const Instruction& i);
+  Id passed(Id argument) const;
   void call(const Instruction& i);
   void atomic(const Instruction& i);
   void no_float64(const Instruction& i, const std::string& what);
@@ -122,6 +123,8 @@ class FunctionEmitter {
     int uniform_depth = 0;       // uniform branches and loops entered since
   };
   void list(const List& statements, const Statement* owner, std::size_t first = 0);
+  std::string local_name(Id variable) const;
+  void declare_empty(const std::vector<Id>& variables);
   void declare_before(const Statement& s);
   void code(const Statement& s);
   void choice(const Statement& s);
@@ -155,6 +158,7 @@ class FunctionEmitter {
   TypeNames& types_;
   NameTable& names_;
   Writer& out_;
+  DirectArguments direct_;
   Regions regions_;
   const bool runs_in_double_;
   std::map<Id, Expression> values_;

@@ -17,6 +17,10 @@ const Statement* head_test(const Statement& s, std::size_t at) {
   return leaving[0]->shape == Shape::leave_loop && leaving[0]->target == &s ? &c : nullptr;
 }
 
+std::string signed_literal(std::uint32_t bits) {
+  return bits == 0x80000000u ? "-2147483647 - 1" : std::to_string(static_cast<std::int32_t>(bits));
+}
+
 std::string trimmed(const std::string& line) { return line.substr(line.find_first_not_of(' ')); }
 
 // Lines that can stand in the head of a `for`, joined by commas; false if they cannot.
@@ -173,21 +177,18 @@ void FunctionEmitter::cases(const Statement& s) {
   flush();
   position(s.file, s.line);
   for (Mask& m : masks_) ++m.uniform_depth;
-  out_.open("switch ((" + selector.text + ").value()) {");
+  out_.open("switch (" + (selector.precedence > 1 ? "(" + selector.text + ")" : selector.text) + ".value()) {");
   const bool is_signed = module_.type_of(s.condition).kind == Kind::integer;
   for (const Case& c : s.cases) {
+    std::vector<std::string> labels;
     for (std::uint32_t v : c.values)
-      out_.line("case " +
-                (is_signed ? (v == 0x80000000u ? std::string("-2147483647 - 1")
-                                               : std::to_string(static_cast<std::int32_t>(v)))
-                           : std::to_string(v) + "u") +
-                ":");
-    if (c.is_default) out_.line("default:");
-    out_.line("{");
+      labels.push_back("case " + (is_signed ? signed_literal(v) : std::to_string(v) + "u") + ":");
+    if (c.is_default) labels.push_back("default:");
+    for (std::size_t k = 0; k < labels.size(); ++k) out_.line(labels[k] + (k + 1 == labels.size() ? " {" : ""));
     scope(c.body, &s);
-    const bool ends =
+    const bool jumps =
         !c.body.empty() && (c.body.back()->shape == Shape::next_iteration || c.body.back()->shape == Shape::give_back);
-    out_.line(c.falls_through ? "}" : ends ? "}" : "} break;");
+    out_.line(c.falls_through || jumps ? "}" : "} break;");
     if (c.falls_through) out_.line("[[fallthrough]];");
   }
   out_.close("}");
@@ -206,11 +207,7 @@ void FunctionEmitter::masked_cases(const Statement& s) {
   const auto match = [&](const std::vector<std::uint32_t>& values) {
     std::string text;
     for (std::uint32_t v : values) {
-      const std::string literal = is_signed ? "UI(" +
-                                                  (v == 0x80000000u ? std::string("-2147483647 - 1")
-                                                                    : std::to_string(static_cast<std::int32_t>(v))) +
-                                                  ")"
-                                            : "UU(" + std::to_string(v) + "u)";
+      const std::string literal = is_signed ? "UI(" + signed_literal(v) + ")" : "UU(" + std::to_string(v) + "u)";
       text += (text.empty() ? "" : " || ") + name + " == " + literal;
     }
     return text;

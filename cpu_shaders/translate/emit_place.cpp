@@ -171,7 +171,7 @@ void FunctionEmitter::store(const Instruction& i) {
     settle_effects();
     position(i.file, i.line);
     const std::string type = types_.name(module_.variables.at(root).type, at_.is_varying(root));
-    const std::string name = declare(root, module_.name(root));
+    const std::string name = declare(root, local_name(root));
     const std::string text = type + " " + name + " = " + v.text;
     for (const auto& [loop_statement, init] : regions_.loop_init) {
       if (init != &i) continue;

@@ -16,7 +16,8 @@ FunctionEmitter::FunctionEmitter(Emission& shared, const Instance& instance, boo
       types_(shared.types),
       names_(shared.names),
       out_(shared.out),
-      regions_(Regions::find(shared.program, instance)),
+      direct_(DirectArguments::find(shared.program, instance)),
+      regions_(Regions::find(shared.program, instance, direct_)),
       runs_in_double_(runs_in_double) {}
 
 void FunctionEmitter::position(std::uint32_t file, int line) {
@@ -171,18 +172,35 @@ void FunctionEmitter::list(const List& statements, const Statement* owner, std::
   }
 }
 
+// The author's name; glslang's own variables are arguments (after the parameter) and results of ?:, && and ||.
+std::string FunctionEmitter::local_name(Id variable) const {
+  const std::string name = module_.name(variable);
+  if (name.empty()) return "choice";
+  if (name != "param") return name;
+  const auto found = info_.parameter_of.find(variable);
+  return found == info_.parameter_of.end() || found->second.empty() ? "argument" : found->second;
+}
+
+void FunctionEmitter::declare_empty(const std::vector<Id>& variables) {
+  for (Id v : variables)
+    out_.line(types_.name(module_.variables.at(v).type, at_.is_varying(v)) + " " + declare(v, local_name(v)) + "{};");
+}
+
 void FunctionEmitter::declare_before(const Statement& s) {
   const auto declared = regions_.before.find(&s);
-  if (declared == regions_.before.end()) return;
-  for (Id v : declared->second) {
-    const std::string wanted = module_.name(v);
-    const std::string type = types_.name(module_.variables.at(v).type, at_.is_varying(v));
-    out_.line(type + " " + declare(v, wanted.empty() ? "choice" : wanted) + "{};");
-  }
+  if (declared != regions_.before.end()) declare_empty(declared->second);
 }
 
 void FunctionEmitter::code(const Statement& s) {
-  for (const Instruction& i : s.code) instruction(i);
+  for (const Instruction& i : s.code) {
+    if (direct_.skipped.count(&i)) continue;
+    const auto declared = regions_.before_instruction.find(&i);
+    if (declared != regions_.before_instruction.end()) {
+      position(i.file, i.line);
+      declare_empty(declared->second);
+    }
+    instruction(i);
+  }
 }
 
 // True if it opened a block around the rest of the list.

@@ -176,6 +176,7 @@ void relate_calls(Program& program, FunctionInfo& info) {
     for (std::size_t k = 0; k + 1 < i.operands.size(); ++k) {
       const Id argument = i.operands[k + 1];
       if (m.type_of(argument).kind != Kind::pointer) continue;
+      info.parameter_of[argument] = m.name(callee.function->parameters[k].id);
       const auto found = mentions.find(argument);
       const bool temporary = found != mentions.end() && m.name(argument) == "param" && found->second.stores == 1 &&
                              found->second.loads == 0 && found->second.calls == 1 && found->second.other == 0;

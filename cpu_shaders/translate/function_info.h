@@ -34,6 +34,8 @@ struct FunctionInfo {
   // Local variables made to pass an argument that the function does not give back: the value stands for them.
   std::set<Id> argument_temporaries;
 
+  std::map<Id, std::string> parameter_of;  // name of the parameter that a variable is passed for
+
   // A call can stand anywhere in an expression.
   bool pure() const;
 };

@@ -13,7 +13,8 @@ struct Access {
 
 class Finder {
  public:
-  Finder(const Program& program, const Instance& at) : program_(program), info_(*at.info), at_(at) {
+  Finder(const Program& program, const Instance& at, const DirectArguments& direct)
+      : program_(program), info_(*at.info), at_(at), direct_(direct) {
     walk(info_.body.list, nullptr);
   }
 
@@ -48,11 +49,12 @@ class Finder {
   void note(const Instruction& i) {
     std::set<Id> roots;
     if (i.op == spv::OpAccessChain || i.op == spv::OpInBoundsAccessChain) return;  // counts where it is used
+    if (direct_.skipped.count(&i)) return;
     for (Id id : value_operands(i)) {
       const auto type = program_.module.value_types.find(id);
       if (type == program_.module.value_types.end() || program_.module.type(type->second).kind != Kind::pointer)
         continue;
-      roots.insert(root_of(info_, id));
+      roots.insert(named(root_of(info_, id)));
     }
     for (Id root : roots) accesses_[root].push_back({path_, owners_, &i});
   }
@@ -81,7 +83,10 @@ class Finder {
     const bool begins = at.shape == Shape::code && i.op == spv::OpStore && i.operands[0] == v && i.operands[1] != v &&
                         !at_.partial.count(&i);
     if (!begins) {
-      result_.before[&at].push_back(v);
+      if (at.shape == Shape::code)
+        result_.before_instruction[&i].push_back(v);
+      else
+        result_.before[&at].push_back(v);
       return;
     }
     result_.declaring_stores.insert(&i);
@@ -94,12 +99,17 @@ class Finder {
     if (only_in_loop && !result_.constant.count(v)) result_.loop_init[list[last].get()] = &i;
   }
 
+  Id named(Id argument) const {
+    const auto found = direct_.variable.find(argument);
+    return found == direct_.variable.end() ? argument : found->second;
+  }
+
   bool writes(const Instruction& i, Id v) const {
     if (i.op == spv::OpStore) return root_of(info_, i.operands[0]) == v;
     if (i.op == spv::OpFunctionCall) {
       const FunctionInfo& callee = program_.info(i.operands[0]);
       for (std::size_t k = 0; k + 1 < i.operands.size(); ++k)
-        if (i.operands[k + 1] == v && callee.written_parameters.count(k)) return true;
+        if (named(i.operands[k + 1]) == v && callee.written_parameters.count(k)) return true;
       return false;
     }
     return i.op == spv::OpExtInst && i.operands[1] == 35 && root_of(info_, i.operands[3]) == v;  // modf
@@ -108,6 +118,7 @@ class Finder {
   const Program& program_;
   const FunctionInfo& info_;
   const Instance& at_;
+  const DirectArguments& direct_;
   Regions result_;
   std::vector<std::pair<const List*, std::size_t>> path_;
   std::vector<const Statement*> owners_;
@@ -116,6 +127,8 @@ class Finder {
 
 }  // namespace
 
-Regions Regions::find(const Program& program, const Instance& instance) { return Finder(program, instance).run(); }
+Regions Regions::find(const Program& program, const Instance& instance, const DirectArguments& direct) {
+  return Finder(program, instance, direct).run();
+}
 
 }  // namespace twinshade::spirv

@@ -9,17 +9,19 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 scene=(courtyard --technique h6,sh3,cutout,facets --lightmap 64 --rays 64)
 features=-FMA,-FMA4,-AVX2,-AVX2_Usable,-AVX512F,-ERMS
-features_glibc="glibc.cpu.hwcaps=$features"
+
+# Variables of the environment and options of the variant at hand.
+environment=()
+options=()
 
 expected_bundle=
-check_bake() {  # label, then the command with its environment
-  local label=$1 bundle="$work/$1.bundle"
-  shift
+check_bake() {  # label, binary
+  local label=$1 binary=$2 bundle="$work/$1.bundle" hash
   mkdir -p "$work/cache-$label"
-  env TWINSHADE_CACHE="$work/cache-$label" "$@" bake "${scene[@]}" --size 320x200 --quiet -o "$bundle" >/dev/null
-  local hash
+  env TWINSHADE_CACHE="$work/cache-$label" ${environment[@]+"${environment[@]}"} "$binary" bake "${scene[@]}" \
+    --size 320x200 --quiet ${options[@]+"${options[@]}"} -o "$bundle" >/dev/null
   hash=$(sha256sum <"$bundle" | cut -d' ' -f1)
-  printf 'bake   %-28s %s\n' "$label" "$hash"
+  printf 'bake   %-24s %s\n' "$label" "$hash"
   if [ -z "$expected_bundle" ]; then
     expected_bundle=$hash
     cp "$bundle" "$work/reference.bundle"
@@ -31,14 +33,13 @@ check_bake() {  # label, then the command with its environment
 }
 
 declare -A expected_frame
-check_frame() {  # label, then the command with its environment; the rest are options
-  local label=$1 technique hash
-  shift
+check_frame() {  # label, binary
+  local label=$1 binary=$2 technique hash
   for technique in h6 sh3 cutout facets; do
-    hash=$(env "$@" render "$work/reference.bundle" --technique $technique --on cpu ${options[@]+"${options[@]}"} --quiet \
-      -o "$work/frame.exr" | awk '$1 == "frame" {print $2}')
+    hash=$(env ${environment[@]+"${environment[@]}"} "$binary" render "$work/reference.bundle" --technique $technique --on cpu \
+      --quiet ${options[@]+"${options[@]}"} -o "$work/frame.exr" | awk '$1 == "frame" {print $2}')
     [ -n "$hash" ] || { echo "no frame hash: $label $technique" >&2; exit 1; }
-    printf 'frame  %-28s %-7s %s\n' "$label" $technique "$hash"
+    printf 'frame  %-24s %-7s %s\n' "$label" $technique "$hash"
     if [ -z "${expected_frame[$technique]:-}" ]; then
       expected_frame[$technique]=$hash
     elif [ "$hash" != "${expected_frame[$technique]}" ]; then
@@ -50,25 +51,40 @@ check_frame() {  # label, then the command with its environment; the rest are op
 
 first=$1
 shift
-check_bake threads-2 "$first" --threads 2
-check_bake threads-1 "$first" --threads 1
-check_bake threads-7 "$first" --threads 7
-check_bake masked-features GLIBC_TUNABLES="$features_glibc" "$first"
-check_bake embree-sse2 TWINSHADE_EMBREE_ISA=sse2 "$first"
-if grep -q avx2 /proc/cpuinfo; then check_bake embree-avx2 TWINSHADE_EMBREE_ISA=avx2 "$first"; fi
-
+for threads in 2 1 7; do
+  options=(--threads $threads)
+  check_bake threads-$threads "$first"
+  check_frame threads-$threads "$first"
+done
 options=()
-check_frame default "$first"
-for tile in 16 32 64; do options=(--tile $tile); check_frame tile-$tile "$first"; done
-for threads in 1 2 7; do options=(--threads $threads); check_frame threads-$threads "$first"; done
+environment=("GLIBC_TUNABLES=glibc.cpu.hwcaps=$features")
+check_bake masked-features "$first"
+check_frame masked-features "$first"
+environment=(TWINSHADE_EMBREE_ISA=sse2)
+check_bake embree-sse2 "$first"
+if grep -q avx2 /proc/cpuinfo; then
+  environment=(TWINSHADE_EMBREE_ISA=avx2)
+  check_bake embree-avx2 "$first"
+fi
+environment=()
+
+for tile in 16 32 64; do
+  options=(--tile $tile)
+  check_frame tile-$tile "$first"
+done
 for number in lanes4 lanes8 lanes16 scalar; do
   options=(--number $number --isa baseline)
   check_frame $number-baseline "$first"
 done
-if grep -q avx2 /proc/cpuinfo; then options=(--number lanes8 --isa avx2); check_frame lanes8-avx2 "$first"; fi
-if grep -q avx512vl /proc/cpuinfo; then options=(--number lanes16 --isa avx512); check_frame lanes16-avx512 "$first"; fi
+if grep -q avx2 /proc/cpuinfo; then
+  options=(--number lanes8 --isa avx2)
+  check_frame lanes8-avx2 "$first"
+fi
+if grep -q avx512vl /proc/cpuinfo; then
+  options=(--number lanes16 --isa avx512)
+  check_frame lanes16-avx512 "$first"
+fi
 options=()
-check_frame masked-features GLIBC_TUNABLES="$features_glibc" "$first"
 
 number=2
 for other in "$@"; do

@@ -60,7 +60,7 @@ struct Lamp {
 Environment paint_sky() {
   const dvec3 sun = glm::normalize(dvec3(0.30, 0.74, 0.60));
   const double sun_edge = portable::cos(1.0 * kPi / 180);
-  // Irradiance 11 on a surface that faces the sun: radiance = 6 / solid angle.
+  // Irradiance 11 on a surface that faces the sun: radiance = 11 / solid angle.
   const dvec3 sun_radiance = dvec3(1.0, 0.92, 0.79) * (11 / (2 * kPi * (1 - sun_edge)));
   return paint("sky", 512, 256, 4, [=](const dvec3& d) {
     const dvec3 zenith(0.22, 0.40, 0.82), horizon(0.78, 0.84, 0.90), ground(0.24, 0.20, 0.16);

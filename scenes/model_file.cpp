@@ -208,16 +208,27 @@ class Assembly {
     scene_.notes.push_back(reason + ": light is baked per vertex");
   }
 
-  // Looks at the middle of the bounds from the front, a little right and above, from where all of them are in view.
+  // Looks at the middle of the bounds from the front, a little right and above, as near as has all corners in a square
+  // view.
   void frame_camera() {
     dvec3 low(scene_.positions[0]), high = low;
     for (const glm::vec3& p : scene_.positions) low = glm::min(low, dvec3(p)), high = glm::max(high, dvec3(p));
-    const double radius = std::max(0.5 * glm::length(high - low), 1e-6);
+    const dvec3 middle = 0.5 * (low + high);
+    const double radius = std::max(glm::length(high - middle), 1e-6);
     Camera& camera = scene_.camera;
     camera.vertical_fov_degrees = 40;
-    const double distance = 1.02 * radius / portable::sin(0.5 * camera.vertical_fov_degrees * portable::kPi / 180);
-    camera.target = 0.5 * (low + high);
-    camera.eye = camera.target + glm::normalize(dvec3(0.55, 0.40, 1.0)) * distance;
+    const double slope = portable::tan(0.5 * camera.vertical_fov_degrees * portable::kPi / 180);
+    const dvec3 back = glm::normalize(dvec3(0.55, 0.40, 1.0)), right = glm::normalize(glm::cross(camera.up, back));
+    const dvec3 up = glm::cross(back, right);
+    double distance = 0.1 * radius;
+    for (int corner = 0; corner < 8; ++corner) {
+      const dvec3 at =
+          dvec3(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z) - middle;
+      const double aside = std::max(std::fabs(glm::dot(at, right)), std::fabs(glm::dot(at, up)));
+      distance = std::max(distance, 1.05 * aside / slope + glm::dot(at, back));
+    }
+    camera.target = middle;
+    camera.eye = middle + back * distance;
     camera.near_plane = std::max(0.01 * radius, distance - 1.1 * radius);
     camera.far_plane = distance + 1.1 * radius;
   }

@@ -83,10 +83,12 @@ TEST_CASE("a square comes in with v turned up, tangents along u, light per verte
     }
     // The camera sees all of it.
     const dvec3 forward = glm::normalize(scene.camera.target - scene.camera.eye);
+    const dvec3 right = glm::normalize(glm::cross(forward, scene.camera.up)), up = glm::cross(right, forward);
+    const double slope = std::tan(0.5 * scene.camera.vertical_fov_degrees * 3.14159265358979 / 180);
     for (const glm::vec3& p : scene.positions) {
       const dvec3 to = dvec3(p) - scene.camera.eye;
-      CHECK(glm::dot(glm::normalize(to), forward) >
-            std::cos(0.5 * scene.camera.vertical_fov_degrees * 3.14159265 / 180));
+      CHECK(std::fabs(glm::dot(to, right)) < slope * glm::dot(to, forward));
+      CHECK(std::fabs(glm::dot(to, up)) < slope * glm::dot(to, forward));
       CHECK(glm::dot(to, forward) > scene.camera.near_plane);
       CHECK(glm::dot(to, forward) < scene.camera.far_plane);
     }

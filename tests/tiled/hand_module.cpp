@@ -197,7 +197,7 @@ const ShaderModule& meeting_module(int threads) {
   meeting.came.clear();
   meeting.count = 0;
   meeting.wanted = threads;
-  meeting.until = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+  meeting.until = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   return owned.module;
 }
 

@@ -30,7 +30,7 @@ const ShaderModule& frag_depth_module();
 // in vec4 v_value; counts in a storage buffer "counter" the live invocations it ran; out vec4(count before the quad).
 const ShaderModule& side_effect_module();
 
-// As echo, but no call returns before `threads` threads have come, or a second has passed.
+// As echo, but no call returns before `threads` threads have come, or twenty seconds have passed.
 const ShaderModule& meeting_module(int threads);
 
 }  // namespace twinshade::test

@@ -176,7 +176,8 @@ class CompareRun {
   }
 
   std::string picture_path(const Shading& shader, const std::string& what) const {
-    return (std::filesystem::path(verb_.folder) / (shader.source.name + "." + what + ".png")).string();
+    const std::string& name = verb_.shading.shader.empty() ? shader.technique : shader.source.name;
+    return (std::filesystem::path(verb_.folder) / (name + "." + what + ".png")).string();
   }
 
   void write_pictures(const Shading& shader, const std::string& backend, const Frame& frame) {

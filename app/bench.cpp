@@ -14,6 +14,7 @@
 #include "app/subject.h"
 #include "app/table.h"
 #include "base/error.h"
+#include "cpu_shaders/runtime/machine.h"
 
 namespace twinshade {
 namespace {
@@ -85,7 +86,7 @@ class BenchRun {
   std::vector<Way> ways() const {
     std::vector<Way> ways;
     for (const Isa isa : {Isa::baseline, Isa::avx2, Isa::avx512}) {
-      if (verb_.cpu.isa ? isa != *verb_.cpu.isa : isa > best_isa()) continue;
+      if (verb_.cpu.isa ? isa != *verb_.cpu.isa : isa > machine_isa()) continue;
       for (const AttributeMode attributes : {AttributeMode::exact, AttributeMode::native}) {
         Way way;
         way.renderer = "cpu";
@@ -202,8 +203,8 @@ class BenchRun {
 int BenchVerb::run() const {
   apply(common);
   const Output output(common);
-  if (cpu.isa && *cpu.isa > best_isa())
-    throw UserError(fmt::format("--isa {}: this processor has only {}", isa_name(*cpu.isa), isa_name(best_isa())));
+  if (cpu.isa && *cpu.isa > machine_isa())
+    throw UserError(fmt::format("--isa {}: this processor has only {}", isa_name(*cpu.isa), isa_name(machine_isa())));
   return BenchRun(*this, output).run();
 }
 

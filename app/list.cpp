@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/names.h"
 #include "base/parallel.h"
+#include "cpu_shaders/runtime/machine.h"
 #include "lighting/registry.h"
 #include "scenes/environment.h"
 #include "scenes/scene.h"
@@ -125,8 +126,8 @@ Listing list_backends(const Output& output) {
   for (const std::string& name : backend_names()) {
     output.progress("trying " + name);
     if (name == "cpu") {  // always there; a user's shader, unlike the built-in ones, would need a compiler
-      const std::string isa = isa_name(best_isa());
-      const std::string number = number_name(natural_number(best_isa()));
+      const std::string isa = isa_name(machine_isa());
+      const std::string number = number_name(natural_number(machine_isa()));
       listing.table.row({name, "yes", fmt::format("{}, {}, {} threads", isa, number, thread_count())});
       listing.json.push_back({{"name", name}, {"works", true}, {"provenance", {{"isa", isa}, {"number", number}}}});
       continue;

@@ -6,6 +6,7 @@
 #include "base/names.h"
 #include "base/parallel.h"
 #include "cpu_shaders/load/load.h"
+#include "cpu_shaders/runtime/machine.h"
 #include "raster/tiled/tiled_renderer.h"
 #if TWINSHADE_HAS_GL
 #include "raster/gl/gl_renderer.h"
@@ -72,24 +73,12 @@ bool Machines::uses_derivatives(const ShaderSource& source) const {
   return load_module(source, number(), cpu_.isa).uses_derivatives;
 }
 
-Number Machines::number() const { return cpu_.number.value_or(natural_number(cpu_.isa.value_or(best_isa()))); }
+Number Machines::number() const { return cpu_.number.value_or(natural_number(cpu_.isa.value_or(machine_isa()))); }
 
 Renderer& Machines::renderer(const std::string& backend) {
   std::unique_ptr<Renderer>& made = renderers_[backend];
   if (!made) made = backend == "cpu" ? make_tiled_renderer(load_module) : make_gl(backend, host_fma_);
   return *made;
-}
-
-Isa best_isa() {
-#if defined(__x86_64__)
-  // x86-64-v3 and v4 by their parts: clang 14 does not take the levels' names.
-  const bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
-  const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-                  __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
-                  __builtin_cpu_supports("avx512vl");
-  if (v3) return v4 ? Isa::avx512 : Isa::avx2;
-#endif
-  return Isa::baseline;
 }
 
 Number natural_number(Isa isa) {

@@ -35,8 +35,6 @@ class Machines {
   std::map<std::string, std::unique_ptr<Renderer>> renderers_;
 };
 
-// The best instruction set that this processor and this build have.
-Isa best_isa();
 // The widest number type that shading has for an instruction set: what is drawn with unless the user says otherwise.
 Number natural_number(Isa isa);
 

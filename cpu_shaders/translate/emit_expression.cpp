@@ -186,6 +186,12 @@ Expression FunctionEmitter::composite(const Instruction& i) {
 }
 
 Expression FunctionEmitter::extract(const Instruction& i) {
+  Id constant = i.operands[0];
+  for (std::size_t k = 1; k < i.operands.size() && module_.is_constant(constant); ++k) {
+    const auto& components = module_.constants.at(constant).components;
+    constant = i.operands[k] < components.size() ? components[i.operands[k]] : 0;
+  }
+  if (module_.is_constant(constant)) return value(constant);
   Expression e = value(i.operands[0]);
   if (e.precedence > 1) e.text = "(" + e.text + ")";
   e.precedence = 1;

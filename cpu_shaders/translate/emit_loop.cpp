@@ -48,6 +48,8 @@ std::string FunctionEmitter::loop_condition(const Statement& s, Id condition, bo
   for_each_statement(s.body, [&](const Statement& inner) { may_discard |= discards(inner); });
   std::string test;
   bool varying = false;
+  if (condition != 0 && module_.is_constant(condition) && (module_.constants.at(condition).bits != 0) != inverted)
+    condition = 0;
   if (condition != 0) {
     const Expression c = value(condition);
     varying = at_.is_varying(condition);

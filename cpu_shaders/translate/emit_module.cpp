@@ -265,33 +265,33 @@ class ModuleEmitter {
           const std::string local = g.name + "_values";
           out.open("{");
           out.line(types_.name(g.type, false) + " " + local + ";");
-          load_uniform(Layout(module_, g.in_block), memory, g.type, local, std::to_string(g.offset), {}, 0);
+          load_uniform(Layout(module_, g.in_block), memory, g.type, local, g.offset, "", {}, 0);
           out.line(g.name + " = " + table_type(g.type) + "(" + local + ");");
           out.close("}");
         } else {
-          load_uniform(Layout(module_, g.in_block), memory, g.type, g.name, std::to_string(g.offset), {}, 0);
+          load_uniform(Layout(module_, g.in_block), memory, g.type, g.name, g.offset, "", {}, 0);
         }
       }
     }
     out.close("}");
   }
 
+  // Reads what lies `offset` bytes plus `dynamic` (made of loop counters) into `memory`.
   void load_uniform(const Layout& layout, const std::string& memory, Id id, const std::string& target,
-                    const std::string& offset, const MatrixLayout& matrix, int depth) {
+                    std::uint32_t offset, const std::string& dynamic, const MatrixLayout& matrix, int depth) {
     const Type& t = module_.type(id);
     Writer& out = shared_.out;
-    const auto plus = [&](std::uint32_t more) { return more == 0 ? offset : offset + " + " + std::to_string(more); };
     switch (t.kind) {
       case Kind::structure:
         for (std::uint32_t k = 0; k < t.members.size(); ++k)
           load_uniform(layout, memory, t.members[k], target + "." + types_.member(id, k),
-                       plus(layout.member_offset(id, k)), layout.member_matrix(id, k), depth);
+                       offset + layout.member_offset(id, k), dynamic, layout.member_matrix(id, k), depth);
         return;
       case Kind::array: {
         const std::string i = depth == 0 ? "i" : "i" + std::to_string(depth);
         out.open("for (int " + i + " = 0; " + i + " < " + std::to_string(t.count) + "; ++" + i + ") {");
-        load_uniform(layout, memory, t.element, target + "[" + i + "]",
-                     offset + " + " + std::to_string(layout.array_stride(id)) + " * " + i, matrix, depth + 1);
+        load_uniform(layout, memory, t.element, target + "[" + i + "]", offset,
+                     dynamic + " + " + std::to_string(layout.array_stride(id)) + " * " + i, matrix, depth + 1);
         out.close("}");
         return;
       }
@@ -299,17 +299,18 @@ class ModuleEmitter {
         for (std::uint32_t c = 0; c < t.count; ++c) {
           const std::string column = target + "[" + std::to_string(c) + "]";
           if (!matrix.row_major) {
-            load_uniform(layout, memory, t.element, column, plus(c * matrix.stride), matrix, depth);
+            load_uniform(layout, memory, t.element, column, offset + c * matrix.stride, dynamic, matrix, depth);
             continue;
           }
           const Type& vector = module_.type(t.element);
           for (std::uint32_t r = 0; r < vector.count; ++r)
             load_uniform(layout, memory, vector.element, column + "[" + std::to_string(r) + "]",
-                         plus(4 * c + r * matrix.stride), {}, depth);
+                         offset + 4 * c + r * matrix.stride, dynamic, {}, depth);
         }
         return;
       default:
-        out.line(target + " = load<" + types_.name(id, false) + ">(" + memory + ", UI(" + offset + "));");
+        out.line(target + " = load<" + types_.name(id, false) + ">(" + memory + ", UI(" + std::to_string(offset) +
+                 dynamic + "));");
     }
   }
 

@@ -138,11 +138,18 @@ FunctionEmitter::Place FunctionEmitter::place(Id pointer) {
 Expression FunctionEmitter::load(const Place& p) {
   Expression e = p.base;
   if (p.buffer != nullptr) {
-    const Offset at = offset_of(p);
+    Offset at = offset_of(p);
     if (module_.component_count(p.type) > kMostLeavesLoaded)
       throw UserError(module_.position(info_.function->file, info_.function->line).text() + ": in " +
                       info_.function->name + ": copying the whole of " + p.buffer->name +
                       " is not supported: read its elements one by one");
+    const Kind kind = module_.type(p.type).kind;
+    const bool several = kind == Kind::matrix || kind == Kind::array || kind == Kind::structure;
+    if (several && !at.dynamic.empty()) {
+      const std::string name = names_.declare("t" + std::to_string(++temporary_count_));
+      out_.line("const " + std::string(at.varying ? "I " : "UI ") + name + " = " + at.dynamic + ";");
+      at.dynamic = name;
+    }
     e.text = load_memory(p.base.text, at, p.type, 0, at.matrix, at.varying);
     e.precedence = 1;
     e.reads.insert(kBuffers);

@@ -115,6 +115,14 @@ TWINSHADE_INLINE vec<typename N::F, 4> filtered(const TextureView& view, const f
   return filtered_texels<N::width>(texels, indices, 0, vec<typename N::F, 4>(taps.weight));
 }
 
+// One uniform fetch for all lanes: as the GLSL has it.
+template <class Taps, class Fetch>
+TWINSHADE_INLINE auto uniform_fetch(const Taps& taps, Fetch fetch) {
+  const auto low =
+      fetch(taps.texel.x, taps.texel.y) * taps.weight.x + fetch(taps.texel.z, taps.texel.y) * taps.weight.y;
+  return low + (fetch(taps.texel.x, taps.texel.w) * taps.weight.z + fetch(taps.texel.z, taps.texel.w) * taps.weight.w);
+}
+
 }  // namespace detail
 
 template <class N>
@@ -122,19 +130,31 @@ inline constexpr bool has_exact_fetch = is_simd<N>;
 
 template <class N, class Real, class Taps>
 TWINSHADE_INLINE vec<typename N::F, 4> exact_fetch(Sampler2D<Real> map, const Taps& taps) {
-  return detail::filtered<N>(*map.view, map.view->texels, taps, typename N::U(0u));
+  if constexpr (is_simd<N>) {
+    return detail::filtered<N>(*map.view, map.view->texels, taps, typename N::U(0u));
+  } else {
+    return detail::uniform_fetch(taps, [&](const auto& x, const auto& y) TWINSHADE_LAMBDA {
+      return glsl::texelFetch(map, vec<typename N::I, 2>(x, y), typename N::UI(0));
+    });
+  }
 }
 template <class N, class Real, class Taps, Lane I>
 TWINSHADE_INLINE vec<typename N::F, 4> exact_fetch(Sampler2DArray<Real> maps, const Taps& taps, const I& layer) {
-  const TextureView& view = *maps.view;
-  const auto slice = twinshade::detail::clamp_to_size(layer, view.layers);
-  if constexpr (I::width == 1) {
-    return detail::filtered<N>(view, view.texels + slice.value() * view.layer_pitch, taps, typename N::U(0u));
+  if constexpr (!is_simd<N>) {
+    return detail::uniform_fetch(taps, [&](const auto& x, const auto& y) TWINSHADE_LAMBDA {
+      return glsl::texelFetch(maps, vec<typename N::I, 3>(x, y, layer), typename N::UI(0));
+    });
   } else {
-    using U = typename N::U;
-    return detail::filtered<N>(
-        view, view.texels, taps,
-        slice.template to<std::uint32_t>() * U(static_cast<std::uint32_t>(view.layer_pitch / 4)));
+    const TextureView& view = *maps.view;
+    const auto slice = twinshade::detail::clamp_to_size(layer, view.layers);
+    if constexpr (I::width == 1) {
+      return detail::filtered<N>(view, view.texels + slice.value() * view.layer_pitch, taps, typename N::U(0u));
+    } else {
+      using U = typename N::U;
+      return detail::filtered<N>(
+          view, view.texels, taps,
+          slice.template to<std::uint32_t>() * U(static_cast<std::uint32_t>(view.layer_pitch / 4)));
+    }
   }
 }
 

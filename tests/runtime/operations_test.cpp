@@ -1,6 +1,7 @@
 // Every operator and built-in of every lane count and instruction set gives the bits that the scalar policy gives, and
 // the scalar policy gives what independent computations expect.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "cpu_shaders/runtime/denormals.h"
 #include "cpu_shaders/runtime/machine.h"

@@ -3,12 +3,11 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <random>
 #include <string>
 #include <vector>
-
-#include <fmt/format.h>
 
 namespace twinshade::test {
 
@@ -28,7 +27,11 @@ inline std::uint32_t word_of(float x) {
   return word;
 }
 inline bool is_nan(std::uint32_t word) { return (word & 0x7fffffffu) > 0x7f800000u; }
-inline std::string show(std::uint32_t word) { return fmt::format("{:#010x} ({:a})", word, float_of(word)); }
+inline std::string show(std::uint32_t word) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%#010x (%a)", word, static_cast<double>(float_of(word)));
+  return text;
+}
 
 inline const std::vector<std::uint32_t>& special_words() {
   static const std::vector<std::uint32_t> words = {

@@ -10,7 +10,7 @@ TWINSHADE_CACHE="$work/cache" "$twinshade" bake courtyard --technique "${techniq
   --size 200x120 --quiet -o "$work/aarch64.bundle" >/dev/null
 failures=0
 for identifier in "$@"; do
-  expected=$("$native" "$work/aarch64.bundle" "$identifier" lanes8)
+  expected=$("$native" "$work/aarch64.bundle" "$identifier" lanes4)
   for number in lanes4 lanes8 lanes16 scalar; do
     hash=$(qemu-aarch64 "$foreign" "$work/aarch64.bundle" "$identifier" $number 2)
     printf '%-20s %-8s %s\n' "$identifier" "$number" "$hash"

@@ -80,7 +80,8 @@ TEST_CASE("softpipe shades the CPU's pixels to the same bits") {
       run_twinshade(small_quad({"compare"}, {"--technique", "h4,sh3", "--on", "cpu,softpipe", "--json", "-"}));
   INFO(run.err);
   CHECK(run.code == 0);
-  for (const auto& result : run.json()["results"]) {
+  const auto answer = run.json();
+  for (const auto& result : answer["results"]) {
     CAPTURE(result.dump());
     CHECK(result["pixels_differ"] == result["denormal_only"]);
   }
@@ -153,7 +154,8 @@ TEST_CASE("bench gives medians, quartiles and a ratio") {
   const bool egl = std::find(opengl.begin(), opengl.end(), "egl") != opengl.end();
   CHECK(run.code == (egl ? 0 : 2));
   bool ours = false;
-  for (const auto& row : run.json()["rows"]) {
+  const auto result = run.json();
+  for (const auto& row : result["rows"]) {
     if (row.contains("error")) continue;
     CAPTURE(row.dump());
     CHECK(row["technique"] == "h4");

@@ -47,7 +47,8 @@ void Provenance::add(const std::string& backend, const Frame& frame) {
   Json& entry = json_["backends"][backend];
   if (!entry.is_null()) return;
   entry = Json::object();
-  for (const auto& [key, value] : frame.provenance) entry[key] = value;
+  for (const auto& [key, value] : frame.provenance)
+    if (key != "shader") entry[key] = value;  // one of many: they have their own place
 }
 
 }  // namespace twinshade

@@ -58,7 +58,6 @@ class ModuleEmitter {
         lines_(lines),
         names_(names),
         source_(source),
-        readable_(readable),
         translation_(translation),
         instances_(analyse_uniformity(program)),
         types_(module_, names),
@@ -67,6 +66,7 @@ class ModuleEmitter {
   void run() {
     shared_.out.indent();
     name_functions();
+    choose_inlined();
     find_varying_indices();
     const std::string tables = aside([&] { constant_tables(); });
     const std::string members = aside([&] { write_members(); });
@@ -91,6 +91,21 @@ class ModuleEmitter {
   void name_functions() {
     for (Instance* i : instances_.callees_first)
       i->name = i->info->function->id == module_.entry ? "main" : names_.declare(i->info->function->name);
+  }
+
+  // Inlining everything is what GPUs do and what keeps values in registers; large functions called from many places
+  // would multiply the code, though.
+  void choose_inlined() {
+    constexpr std::size_t kLargestInlined = 800;  // instructions, those of inlined callees included
+    std::map<const Instance*, std::size_t> size, call_sites;
+    for (const Instance* i : instances_.callees_first)
+      for (const auto& [call, callee] : i->callees) ++call_sites[callee];
+    for (Instance* i : instances_.callees_first) {
+      std::size_t& own = size[i];
+      for_each_statement(i->info->body.list, [&](const Statement& s) { own += s.code.size() + 1; });
+      for (const auto& [call, callee] : i->callees) own += callee->inlined ? size[callee] : 1;
+      i->inlined = own <= kLargestInlined || call_sites[i] <= 1;
+    }
   }
 
   // Uniform arrays that some function indexes by a varying value, to be kept as tables.
@@ -442,7 +457,6 @@ class ModuleEmitter {
   const SourceLines& lines_;
   NameTable& names_;
   const ShaderSource& source_;
-  bool readable_;
   Translation& translation_;
   Instances instances_;
   TypeNames types_;

@@ -76,6 +76,9 @@ FunctionEmitter::Place FunctionEmitter::place(Id pointer) {
         if (t.count != 0 && s.index >= t.count) s.index = t.count - 1;
         s.text = std::to_string(s.index);
       } else {
+        if (at_.is_varying(index) && module_.type(t.element).kind == Kind::sampler)
+          refuse(**chain, "indexing samplers by a value that differs between invocations",
+                 "use a sampler2DArray, or a switch");
         s.kind = at_.is_varying(index) ? Step::Kind::varying_index : Step::Kind::uniform_index;
         const Expression e = value(index);
         s.text = e.text;

@@ -25,7 +25,8 @@ void FunctionEmitter::position(std::uint32_t file, int line) {
   const Position p = module_.position(file, line);
   if (p.line == last_line_ && p.file == last_file_) return;
   if (shared_.readable) {
-    const std::string& text = shared_.lines.text(p.file, p.line);
+    std::string text = shared_.lines.text(p.file, p.line);
+    while (!text.empty() && text.back() == '\\') text.pop_back();  // it would continue the comment
     // Mostly braces say nothing that the C++ does not.
     if (text.find_first_not_of("{}; ") != std::string::npos)
       out_.line("// " + (p.file == last_file_ ? "" : p.file + ":") + std::to_string(p.line) + ": " + text);
@@ -73,7 +74,7 @@ void FunctionEmitter::run() {
   const bool returns_value = module_.type(result_type).kind != Kind::none;
   const std::string result = returns_value ? types_.name(result_type, at_.result_varying) : "void";
   position(info_.function->file, info_.function->line);
-  out_.open("TWINSHADE_INLINE " + result + " " + at_.name + "(" + list_text + ") {");
+  out_.open((at_.inlined ? "TWINSHADE_INLINE " : "") + result + " " + at_.name + "(" + list_text + ") {");
   const bool served = is_served(module_, *info_.function);
   if (served) {
     const std::string& name = info_.function->name;

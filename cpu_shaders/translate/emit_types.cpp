@@ -55,6 +55,13 @@ std::string float_literal(std::uint32_t bits) {
   return std::string(text) + "f";
 }
 
+TypeNames::TypeNames(const Module& module, NameTable& names) : module_(module) {
+  std::set<Id> ids;
+  for (const auto& [id, type] : module.types)
+    if (type.kind == Kind::structure) ids.insert(id);
+  for (Id id : ids) structures_[id] = names.declare(module.name(id).empty() ? "Struct" : module.name(id));
+}
+
 std::string TypeNames::name(Id id, bool varying) {
   const Type& t = module_.type(id);
   std::string base;
@@ -92,9 +99,8 @@ std::string TypeNames::name(Id id, bool varying) {
 }
 
 void TypeNames::declare_structure(Id id) {
-  if (structures_.count(id)) return;
+  if (!declared_.insert(id).second) return;
   const Type& t = module_.type(id);
-  structures_[id] = names_.declare(module_.name(id).empty() ? "Struct" : module_.name(id));
   NameTable local;
   for (std::uint32_t k = 0; k < t.members.size(); ++k) {
     if (module_.type(t.members[k]).kind == Kind::structure) declare_structure(t.members[k]);

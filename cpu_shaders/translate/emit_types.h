@@ -12,7 +12,7 @@ namespace twinshade::spirv {
 
 class TypeNames {
  public:
-  TypeNames(const Module& module, NameTable& names) : module_(module), names_(names) {}
+  TypeNames(const Module& module, NameTable& names);
 
   // Remembers what was asked for: write_declarations declares just that.
   std::string name(Id type, bool varying);
@@ -29,9 +29,9 @@ class TypeNames {
   void write_structure(Writer& out, Id id) const;
 
   const Module& module_;
-  NameTable& names_;
   std::set<std::string> aliases_;
-  std::map<Id, std::string> structures_;
+  std::map<Id, std::string> structures_;  // names, all reserved at the start
+  std::set<Id> declared_;
   std::vector<Id> structure_order_;
   std::set<Id> uniform_structures_;  // those that also occur with uniform members
   std::map<std::pair<Id, std::uint32_t>, std::string> members_;

@@ -39,7 +39,9 @@ class Analysis {
  private:
   void order(Instance& at, std::set<const Instance*>& seen) {
     if (!seen.insert(&at).second) return;
-    for (const auto& [call, callee] : at.callees) order(*callee, seen);
+    for_each_instruction(at.info->body.list, [&](const Instruction& i) {
+      if (i.op == spv::OpFunctionCall) order(*at.callees.at(&i), seen);
+    });
     result_.callees_first.push_back(&at);
   }
 

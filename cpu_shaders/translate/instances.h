@@ -23,6 +23,7 @@ struct Instance {
   std::set<int> waits_at_next;  // loops in which some lanes skip to the next iteration
   std::set<int> divergent;      // departures (break, continue, return) that only some lanes take
   bool divergent_return = false;
+  bool inlined = true;                   // always: small, or called from one place
   bool needs_mask = false;               // takes the caller's mask
   std::set<const Instruction*> partial;  // stores that must keep the values of lanes outside the mask
   std::map<const Instruction*, Instance*> callees;

@@ -59,6 +59,12 @@ class Describer {
       reflection_.has_side_effects |= info.writes_buffers;
       reflection_.uses_derivatives |= info.uses_derivatives;
     }
+    if (module_.other_frag_coord)
+      refuse("gl_FragCoord", "layout(origin_upper_left) or layout(pixel_center_integer) of gl_FragCoord",
+             "compute it from gl_FragCoord");
+    if (module_.early_tests && (reflection_.has_side_effects || reflection_.writes_depth || reflection_.discards))
+      refuse("early_fragment_tests",
+             "layout(early_fragment_tests) in a shader that discards, writes depth or writes to buffers", "remove it");
     return std::move(result_);
   }
 
@@ -131,6 +137,8 @@ class Describer {
     if (module_.type(v.type).kind == Kind::structure)
       refuse(module_.name(v.type), "an input block or struct (" + (name.empty() ? module_.name(v.type) : name) + ")",
              "declare its members as separate inputs");
+    if (d.get(spv::DecorationComponent) != 0)
+      refuse(name, "layout(component) of input " + name, "give each input a location of its own");
     if (d.has(spv::DecorationCentroid) || d.has(spv::DecorationSample))
       refuse(name, "centroid or sample interpolation of " + name,
              "remove the qualifier: there is one sample, at the pixel centre");

@@ -60,6 +60,9 @@ class Parser {
       case spv::OpExecutionMode:
         if (word(first + 1) == spv::ExecutionModeDepthReplacing) m.depth_replacing = true;
         if (word(first + 1) == spv::ExecutionModeEarlyFragmentTests) m.early_tests = true;
+        if (word(first + 1) == spv::ExecutionModeOriginUpperLeft ||
+            word(first + 1) == spv::ExecutionModePixelCenterInteger)
+          m.other_frag_coord = true;
         return;
       case spv::OpLine:
         file_ = word(first);

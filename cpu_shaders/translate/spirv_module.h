@@ -109,7 +109,7 @@ struct Module {
   std::vector<Function> functions;
   Id entry = 0;
   Id bound = 0;  // every id is smaller
-  bool depth_replacing = false, early_tests = false;
+  bool depth_replacing = false, early_tests = false, other_frag_coord = false;
 
   const Type& type(Id id) const { return types.at(id); }
   const Type& type_of(Id value) const { return types.at(value_types.at(value)); }

@@ -1,0 +1,111 @@
+// What the generated file says: comments or #line, constants, reflection.
+#include <doctest/doctest.h>
+
+#include "cpu_shaders/translate/translate.h"
+
+namespace twinshade {
+namespace {
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+Translation of(const std::string& text, bool readable = true) {
+  TranslateOptions options;
+  options.readable = readable;
+  return translate(resolve_shader("sample", text, "sample.frag"), options);
+}
+
+}  // namespace
+
+TEST_CASE("readable text has the GLSL as comments, compiled text #line") {
+  const std::string glsl = "#version 450\nin vec3 n;\nout vec4 c;\nvoid main() {\n  c = vec4(n, 1.0);\n}\n";
+  const std::string readable = of(glsl).cpp, compiled = of(glsl, false).cpp;
+  CHECK(has(readable, "// 5: c = vec4(n, 1.0);"));
+  CHECK_FALSE(has(readable, "#line"));
+  CHECK(has(readable, "c = vec4(n(), UF(1.0f));"));
+  CHECK(has(compiled, "#line 5 \"sample.frag\""));
+  CHECK(of(glsl).cpp == readable);
+}
+
+TEST_CASE("float constants are the bits of the binary") {
+  const std::string cpp =
+      of("#version 450\nin float x;\nout vec4 c;\nvoid main() { c = vec4(x * 0.1, x * 0.5, x * -3.0, x * 1e-40); }\n")
+          .cpp;
+  CHECK(has(cpp, "UF(0x1.99999ap-4f)"));
+  CHECK(has(cpp, "UF(0.5f)"));
+  CHECK(has(cpp, "UF(-3.0f)"));
+  CHECK(has(cpp, "UF(0x1.16c2p-133f)"));
+}
+
+TEST_CASE("what is the same for all lanes stays uniform, and needs no masks") {
+  const std::string cpp =
+      of("#version 450\nin float x;\nout vec4 c;\nuniform int count;\nuniform float w[8];\nvoid main() {\n"
+         "  float sum = 0.0, scale = 1.0;\n  for (int i = 0; i < count; ++i) {\n    scale *= 0.5;\n    sum += w[i] * "
+         "scale * x;\n  }\n"
+         "  c = vec4(sum);\n}\n")
+          .cpp;
+  CHECK(has(cpp, "for (UI i = UI(0); i < count; i = i + UI(1)) {"));
+  CHECK(has(cpp, "UF scale = UF(1.0f);"));
+  CHECK(has(cpp, "F sum = UF(0.0f);"));
+  CHECK_FALSE(has(cpp, "mask"));
+}
+
+TEST_CASE("const arrays are tables under their own name, stored once") {
+  const std::string cpp =
+      of("#version 450\nflat in int k;\nout vec4 c;\nconst float steps[3] = float[](1.0, 2.0, 4.0);\n"
+         "float at(int i) { return steps[i]; }\nvoid main() { c = vec4(at(k), at(k + 1), steps[1], 0.0); }\n")
+          .cpp;
+  CHECK(has(cpp, "static constexpr table<UF, 3> steps"));
+  CHECK(has(cpp, "lookup(steps, "));
+  CHECK(cpp.find("static constexpr table") == cpp.rfind("static constexpr table"));
+}
+
+TEST_CASE("reflection lists inputs, uniforms by path, resources and what the shader does") {
+  const Reflection r = of("#version 450\nflat in ivec2 id;\nin vec3 n[2];\nlayout(location = 1) out vec2 "
+                          "second;\nlayout(location = 0) out vec4 first;\n"
+                          "struct Light { vec3 colour; float power; };\nuniform Light lights[2];\nuniform mat3 "
+                          "frame;\nuniform sampler2D maps[2];\n"
+                          "buffer Log { uint lines[]; };\n"
+                          "void main() {\n  if (n[0].x < 0.0) discard;\n  first = texture(maps[0], n[1].xy) * "
+                          "texture(maps[1], n[0].xy);\n"
+                          "  second = vec2(lights[1].power, frame[2].y);\n  lines[id.x] = 1u;\n}\n")
+                           .reflection;
+  REQUIRE(r.inputs.size() == 2);
+  CHECK(r.inputs[0].name == "id");
+  CHECK(r.inputs[0].flat);
+  CHECK(r.inputs[0].scalar == Scalar::i32);
+  CHECK(r.inputs[1].array_length == 2);
+  CHECK(r.inputs[1].first_component == 2);
+  CHECK(r.input_components == 8);
+  REQUIRE(r.outputs.size() == 2);
+  CHECK(r.outputs[0].name == "second");
+  CHECK(r.outputs[0].location == 1);
+  REQUIRE(r.uniforms.size() == 5);
+  CHECK(r.uniforms[3].name == "lights[1].power");
+  CHECK(r.uniforms[3].offset == 28);
+  CHECK(r.uniforms[4].columns == 3);
+  CHECK(r.uniforms[4].matrix_stride == 16);
+  REQUIRE(r.resources.size() == 3);
+  CHECK(r.resources[1].name == "maps[1]");
+  CHECK(r.resources[1].slot == 1);
+  CHECK(r.resources[2].kind == ResourceKind::storage_buffer);
+  CHECK_FALSE(r.resources[2].read_only);
+  CHECK(r.discards);
+  CHECK(r.has_side_effects);
+  CHECK_FALSE(r.uses_derivatives);
+  CHECK(r.no_float64_reason.empty());
+}
+
+TEST_CASE("functions of shaders/exact/ that the runtime serves leave a float64 entry although they cast bits") {
+  const Translation t =
+      of("#version 450\n#include \"exact/exp2.glsl\"\nin float x;\nout vec4 c;\nvoid main() { c = vec4(exact_exp2(x)); "
+         "}\n");
+  CHECK(t.reflection.no_float64_reason.empty());
+  CHECK(has(t.cpp, "if constexpr (served::has_exact_exp2<N>)"));
+}
+
+TEST_CASE("identifiers are made of any name") {
+  CHECK(identifier_from("my shader-2") == "my_shader_2");
+  CHECK(identifier_from("2d") == "s2d");
+}
+
+}  // namespace twinshade

@@ -48,12 +48,12 @@ const std::string& SourceLines::text(const std::string& file, int line) const {
   return found == index_.end() ? none : lines_[found->second].text;
 }
 
-std::size_t SourceLines::order(const spirv::Position& position) const {
+std::size_t SourceLines::order(const Position& position) const {
   const auto found = index_.find({position.file, position.line});
   return found == index_.end() ? lines_.size() : found->second;
 }
 
-spirv::Position SourceLines::declaration(const std::string& name) const {
+Position SourceLines::declaration(const std::string& name) const {
   const Line* mention = nullptr;
   for (const Line& line : lines_) {
     if (!has_word(line.text, name)) continue;
@@ -62,6 +62,13 @@ spirv::Position SourceLines::declaration(const std::string& name) const {
     if (mention == nullptr) mention = &line;
   }
   if (mention != nullptr) return {mention->file, mention->number};
+  return {lines_.empty() ? std::string("shader") : lines_.front().file, 1};
+}
+
+Position SourceLines::mention(const std::vector<std::string>& words) const {
+  for (const Line& line : lines_)
+    for (const std::string& word : words)
+      if (has_word(line.text, word)) return {line.file, line.number};
   return {lines_.empty() ? std::string("shader") : lines_.front().file, 1};
 }
 

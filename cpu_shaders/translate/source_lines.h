@@ -3,11 +3,17 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "cpu_shaders/shader_source.h"
-#include "cpu_shaders/translate/spirv_module.h"
 
 namespace twinshade {
+
+struct Position {
+  std::string file;
+  int line = 0;
+  std::string text() const { return file + ":" + std::to_string(line); }
+};
 
 class SourceLines {
  public:
@@ -17,11 +23,14 @@ class SourceLines {
   const std::string& text(const std::string& file, int line) const;
 
   // Position of a line in the whole text.
-  std::size_t order(const spirv::Position& position) const;
+  std::size_t order(const Position& position) const;
 
   // Where `name` is first declared as a global: the line that has it as a word and begins with a qualifier or continues
   // such a declaration. SPIR-V gives global variables no position.
-  spirv::Position declaration(const std::string& name) const;
+  Position declaration(const std::string& name) const;
+
+  // The first line with one of the words.
+  Position mention(const std::vector<std::string>& words) const;
 
  private:
   struct Line {

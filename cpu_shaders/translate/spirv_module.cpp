@@ -16,7 +16,7 @@ std::string text_at(const std::vector<std::uint32_t>& words, std::size_t first, 
 
 class Parser {
  public:
-  explicit Parser(const std::vector<std::uint32_t>& words) : words_(words) {}
+  Parser(const std::vector<std::uint32_t>& words, const SourceLines& lines) : words_(words), lines_(lines) {}
 
   Module run() {
     module_.bound = word(3);
@@ -97,14 +97,19 @@ class Parser {
         break;
       case spv::OpTypeInt:
         if (word(first + 1) != 32)
-          throw UserError(here() + "integers of other than 32 bits are not supported: use int or uint");
+          throw UserError(lines_.mention({"int64_t", "uint64_t", "int16_t", "uint16_t", "int8_t", "uint8_t"}).text() +
+                          ": integers of other than 32 bits are not supported: write int or uint");
         t.kind = word(first + 2) != 0 ? Kind::integer : Kind::unsigned_integer;
         break;
       case spv::OpTypeFloat:
-        if (word(first + 1) != 32)
-          throw UserError(
-              here() +
-              "the type double is not supported: write float (the float64 build evaluates the same shader in double)");
+        if (word(first + 1) != 32) {
+          // Types have no position of their own.
+          const Position where = lines_.mention(
+              {"double", "dvec2", "dvec3", "dvec4", "dmat2", "dmat3", "dmat4", "float16_t", "float64_t"});
+          throw UserError(where.text() +
+                          ": floating-point types other than float are not supported: write float (the float64 "
+                          "build evaluates the same shader in double)");
+        }
         t.kind = Kind::real;
         break;
       case spv::OpTypeVector:
@@ -270,6 +275,7 @@ class Parser {
   std::string here() const { return line_ == 0 ? std::string() : module_.position(file_, line_).text() + ": "; }
 
   const std::vector<std::uint32_t>& words_;
+  const SourceLines& lines_;
   Module module_;
   std::uint32_t file_ = 0;
   int line_ = 0;
@@ -278,7 +284,7 @@ class Parser {
 
 }  // namespace
 
-Module parse(const std::vector<std::uint32_t>& words) { return Parser(words).run(); }
+Module parse(const std::vector<std::uint32_t>& words, const SourceLines& lines) { return Parser(words, lines).run(); }
 
 const Function* Module::function(Id id) const {
   for (const Function& f : functions)

@@ -10,15 +10,11 @@
 #define SPV_ENABLE_UTILITY_CODE  // HasResultAndType
 #include <glslang/SPIRV/spirv.hpp>
 
+#include "cpu_shaders/translate/source_lines.h"
+
 namespace twinshade::spirv {
 
 using Id = std::uint32_t;
-
-struct Position {
-  std::string file;
-  int line = 0;
-  std::string text() const { return file + ":" + std::to_string(line); }
-};
 
 struct Instruction {
   spv::Op op = spv::OpNop;
@@ -130,7 +126,7 @@ struct Module {
 };
 
 // UserError for what a type or an instruction at module level cannot mean to us (64-bit numbers, for instance).
-Module parse(const std::vector<std::uint32_t>& words);
+Module parse(const std::vector<std::uint32_t>& words, const SourceLines& lines);
 
 // "OpFAdd": for messages.
 std::string op_name(spv::Op op);

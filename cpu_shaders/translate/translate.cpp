@@ -17,8 +17,8 @@ std::string identifier_from(const std::string& name) {
 Translation translate(const ShaderSource& source, const TranslateOptions& options) {
   Translation translation;
   translation.identifier = options.identifier.empty() ? identifier_from(source.name) : options.identifier;
-  const spirv::Program program = spirv::analyse(spirv::parse(compile_fragment_glsl(source)));
   const SourceLines lines(source);
+  const spirv::Program program = spirv::analyse(spirv::parse(compile_fragment_glsl(source), lines));
   spirv::NameTable names;
   spirv::Interface interface = spirv::describe_interface(program, lines, names);
   spirv::emit_module(program, interface, lines, names, source, options.readable, translation);

@@ -69,16 +69,22 @@ TEST_CASE("reflection lists inputs, uniforms by path, resources and what the sha
                           "texture(maps[1], n[0].xy);\n"
                           "  second = vec2(lights[1].power, frame[2].y);\n  lines[id.x] = 1u;\n}\n")
                            .reflection;
+  const auto named = [](const auto& all, const std::string& name) {
+    for (const auto& one : all)
+      if (one.name == name) return one;
+    FAIL("no ", name);
+    return all[0];
+  };
   REQUIRE(r.inputs.size() == 2);
-  CHECK(r.inputs[0].name == "id");
-  CHECK(r.inputs[0].flat);
-  CHECK(r.inputs[0].scalar == Scalar::i32);
-  CHECK(r.inputs[1].array_length == 2);
-  CHECK(r.inputs[1].first_component == 2);
+  CHECK(named(r.inputs, "id").flat);
+  CHECK(named(r.inputs, "id").scalar == Scalar::i32);
+  CHECK(named(r.inputs, "id").rows == 2);
+  CHECK(named(r.inputs, "n").array_length == 2);
   CHECK(r.input_components == 8);
+  CHECK(r.inputs[0].first_component == 0);
   REQUIRE(r.outputs.size() == 2);
-  CHECK(r.outputs[0].name == "second");
-  CHECK(r.outputs[0].location == 1);
+  CHECK(named(r.outputs, "second").location == 1);
+  CHECK(named(r.outputs, "first").location == 0);
   REQUIRE(r.uniforms.size() == 5);
   CHECK(r.uniforms[3].name == "lights[1].power");
   CHECK(r.uniforms[3].offset == 28);

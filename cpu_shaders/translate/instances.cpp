@@ -115,6 +115,7 @@ class Analysis {
           part(s, Part::else_arm, s.else_list);
           break;
         case Shape::loop:
+          skipped_.erase(s.id);
           part(s, Part::body, s.body);
           part(s, Part::continuing, s.continuing);
           if (s.back_condition != 0 && varying(s.back_condition)) {
@@ -127,7 +128,8 @@ class Analysis {
           for (std::size_t k = 0; k < s.cases.size(); ++k) part(s, Part::in_case, s.cases[k].body, k);
           break;
         case Shape::leave_loop:
-          if (masked_within(s.target) || at_.waits_at_next.count(s.target->id)) {
+          // A break that the running lanes agree on leaves those behind that have skipped to the next iteration.
+          if (masked_within(s.target) || skipped_.count(s.target->id)) {
             mark(at_.divergent, s.id);
             mark(at_.waits_at_end, s.target->id);
             mark_masked(*s.target);
@@ -137,6 +139,7 @@ class Analysis {
           if (masked_within(s.target)) {
             mark(at_.divergent, s.id);
             mark(at_.waits_at_next, s.target->id);
+            skipped_.insert(s.target->id);
             mark_masked(*s.target);
           }
           break;
@@ -314,6 +317,7 @@ class Analysis {
     const FunctionInfo& info_;
     Instance& at_;
     bool changed_ = false;
+    std::set<int> skipped_;  // loops of which, so far in this iteration, some lanes have skipped the rest
     std::vector<Frame> frames_;
   };
 

@@ -24,5 +24,10 @@ ivec4 kernel(int a, int b, float x, float y) {
   while (n < 4) { n++; if (n == a) { m = n; break; } m = 10; }
   int through = 1;
   for (int i = 0; i < 3; i++) { if (i > 0) through *= 2; else through = a; }
+  int step = 1, odd = 0;
+  for (int i = 0; i < 12; i += step) { if ((i + a) % 3 == 0) continue; step = 3 - step; odd = odd * 2 + i; }
+  int after = 0, j = 0;
+  for (; j < 5; j++) { if (j == b) continue; if (j == 3) break; after = j; }
+  through += step * 10 + odd % 50 + after * 100 + j;
   return ivec4(u * 100 + last, count * 100 + v * 10 + w, s * 1000 + late * 10 + n, m * 100 + through);
 }

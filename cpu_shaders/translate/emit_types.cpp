@@ -103,8 +103,7 @@ void TypeNames::declare_structure(Id id) {
   const Type& t = module_.type(id);
   NameTable local;
   for (std::uint32_t k = 0; k < t.members.size(); ++k) {
-    if (module_.type(t.members[k]).kind == Kind::structure) declare_structure(t.members[k]);
-    name(t.members[k], true);  // so that structures in arrays come first
+    member_types_[{id, k}] = name(t.members[k], true);  // structures that it holds come first
     const auto found = module_.member_names.find({id, k});
     members_[{id, k}] =
         local.declare(found == module_.member_names.end() ? "member" + std::to_string(k) : found->second);
@@ -186,21 +185,21 @@ void TypeNames::need_uniform(Id id) {
   for (Id member_type : t.members) need_uniform(member_type);
 }
 
-// The type of a member, K being Varying or Uniform in a structure that occurs as both.
-std::string TypeNames::member_type(Id id, bool both) const {
+// The type of a member of a structure that occurs as varying and as uniform: K is one of the two.
+std::string TypeNames::twin_type(Id id) const {
   const Type& t = module_.type(id);
-  const std::string k = both ? "typename K::" : "";
   switch (t.kind) {
     case Kind::array:
-      return "arr<" + member_type(t.element, both) + ", " + std::to_string(t.count) + ">";
+      return "arr<" + twin_type(t.element) + ", " + std::to_string(t.count) + ">";
     case Kind::structure:
-      return structures_.at(id) + (both ? "_of<K>" : "");
+      return structures_.at(id) + "_of<K>";
     case Kind::matrix:
-      return "mat<" + k + "F, " + std::to_string(t.count) + ", " + std::to_string(module_.type(t.element).count) + ">";
+      return "mat<typename K::F, " + std::to_string(t.count) + ", " + std::to_string(module_.type(t.element).count) +
+             ">";
     case Kind::vector:
-      return "vec<" + k + scalar_letter(module_.type(t.element).kind) + ", " + std::to_string(t.count) + ">";
+      return "vec<typename K::" + scalar_letter(module_.type(t.element).kind) + ", " + std::to_string(t.count) + ">";
     default:
-      return k + scalar_letter(t.kind);
+      return "typename K::" + scalar_letter(t.kind);
   }
 }
 
@@ -215,7 +214,7 @@ void TypeNames::write_structure(Writer& out, Id id) const {
   out.open("struct " + own + " {");
   for (std::uint32_t k = 0; k < t.members.size(); ++k) {
     const std::string& member = members_.at({id, k});
-    out.line(member_type(t.members[k], both) + " " + member + ";");
+    out.line((both ? twin_type(t.members[k]) : member_types_.at({id, k})) + " " + member + ";");
     const std::string comma = k == 0 ? "" : ", ";
     copies += comma + member;
     selects += comma + "select(mask, a." + member + ", b." + member + ")";

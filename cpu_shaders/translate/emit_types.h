@@ -25,7 +25,7 @@ class TypeNames {
  private:
   void declare_structure(Id type);
   void need_uniform(Id type);
-  std::string member_type(Id id, bool both) const;
+  std::string twin_type(Id id) const;
   void write_structure(Writer& out, Id id) const;
 
   const Module& module_;
@@ -34,7 +34,7 @@ class TypeNames {
   std::set<Id> declared_;
   std::vector<Id> structure_order_;
   std::set<Id> uniform_structures_;  // those that also occur with uniform members
-  std::map<std::pair<Id, std::uint32_t>, std::string> members_;
+  std::map<std::pair<Id, std::uint32_t>, std::string> members_, member_types_;
 };
 
 // A float literal that reads back as the same bits: short decimals where they are exact, else hexadecimal.

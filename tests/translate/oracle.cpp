@@ -28,7 +28,7 @@ std::array<int, 4> oracle(const std::string& kernel, bool double_precision, int 
     const ivec4 r = in_double::name().kernel(a, b, x, y); \
     return {r.x, r.y, r.z, r.w};                          \
   }
-#define KERNEL(name, has_double)                         \
+#define KERNEL(name, has_double, numbers)                \
   if (kernel == #name && !double_precision) {            \
     const ivec4 r = in_float::name().kernel(a, b, x, y); \
     return {r.x, r.y, r.z, r.w};                         \

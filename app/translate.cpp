@@ -17,15 +17,18 @@
 namespace twinshade {
 namespace {
 
-// A file if there is one of that name or it looks like a path; else a technique, "h4", or its per-vertex form,
-// "h4_vertex".
+// A file if there is one of that name or it looks like a path; else a technique, "h4", or its form for another place of
+// the coefficients, "h4_vertex" or "sh3_volume".
 ShaderSource source_of(const std::string& name) {
   std::error_code code;
   if (std::filesystem::exists(name, code) || name.find_first_of("./\\") != std::string::npos) return load_shader(name);
   std::vector<std::string> names;
   for (const TechniqueInfo& technique : techniques()) {
-    if (name == technique.name) return technique_source(technique, CoefficientStorage::lightmap);
+    const bool lightmap = can_read(technique, CoefficientStorage::lightmap);
+    if (name == technique.name)
+      return technique_source(technique, lightmap ? CoefficientStorage::lightmap : CoefficientStorage::volume);
     if (name == std::string(technique.name) + "_vertex") return technique_source(technique, CoefficientStorage::vertex);
+    if (name == std::string(technique.name) + "_volume") return technique_source(technique, CoefficientStorage::volume);
     names.emplace_back(technique.name);
   }
   throw UserError(unknown_name_message("technique or shader file", name, names));

@@ -1,15 +1,23 @@
 # Lists the built-in shading functions and techniques for the build.
 
-# TWINSHADE_TECHNIQUES: names in lighting/registry.def, the only list.
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/lighting/registry.def)
 file(STRINGS ${CMAKE_SOURCE_DIR}/lighting/registry.def registry_lines REGEX "^(BASIS|TECHNIQUE)\\(")
-set(TWINSHADE_TECHNIQUES "")
-set(TWINSHADE_LINEAR_BASES "")  # BASIS lines whose fifth field is true
+# TWINSHADE_SHADERS: name:kind of what the build translates: the technique with its coefficients from lightmaps, vertices and
+# volumes, as its domain allows, and what the host evaluates of a basis. From lighting/registry.def, the only list.
+set(TWINSHADE_SHADERS "")
 foreach(line IN LISTS registry_lines)
   string(REGEX REPLACE "^(BASIS|TECHNIQUE)\\(([a-z0-9_]+),.*" "\\2" name "${line}")
-  list(APPEND TWINSHADE_TECHNIQUES ${name})
+  if(NOT line MATCHES "^BASIS\\([^,]*,[^,]*, sphere,")
+    list(APPEND TWINSHADE_SHADERS ${name}:lightmap ${name}:vertex)
+  endif()
+  if(line MATCHES "^BASIS\\([^,]*,[^,]*, (sphere|either),")
+    list(APPEND TWINSHADE_SHADERS ${name}:volume)
+  endif()
+  if(line MATCHES "^BASIS\\(")
+    list(APPEND TWINSHADE_SHADERS ${name}:basis_irradiance)
+  endif()
   if(line MATCHES "^BASIS\\([^,]*,[^,]*,[^,]*,[^,]*, true,")
-    list(APPEND TWINSHADE_LINEAR_BASES ${name})
+    list(APPEND TWINSHADE_SHADERS ${name}:basis_values)
   endif()
 endforeach()
 

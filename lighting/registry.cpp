@@ -30,21 +30,33 @@ const TechniqueInfo& find_technique(std::string_view name) {
   throw UserError(unknown_name_message("technique", std::string(name), names));
 }
 
+bool can_read(const TechniqueInfo& technique, CoefficientStorage storage) {
+  if (!technique.is_basis || technique.domain == Domain::hemisphere) return storage != CoefficientStorage::volume;
+  return technique.domain == Domain::either || storage == CoefficientStorage::volume;
+}
+
 ShaderSource technique_source(const TechniqueInfo& technique, CoefficientStorage storage) {
   const std::string name(technique.name), file(technique.file);
-  const bool vertex = storage == CoefficientStorage::vertex;
+  if (!can_read(technique, storage))
+    throw UserError("technique " + name + " does not read its coefficients from " +
+                    (storage == CoefficientStorage::volume ? "an irradiance volume" : "lightmaps or vertices"));
+  const bool vertex = storage == CoefficientStorage::vertex, volume = storage == CoefficientStorage::volume;
   std::string text = vertex ? "#define TWINSHADE_VERTEX_COEFFICIENTS 1\n" : "";
   if (technique.is_basis) {
-    text += "#define COEFFICIENTS coefficients_" + name + "\n";
+    text += "#define COEFFICIENTS " + std::string(volume ? "volume_" : "coefficients_") + name + "\n";
     text += "#define COEFFICIENT_COUNT " + std::to_string(technique.count) + "\n";
-    text += "#include \"technique/surface.glsl\"\n";
-    text += "#include \"technique/coefficients_" + std::string(vertex ? "vertex" : "lightmap") + ".glsl\"\n";
+    text += "#include \"technique/" + std::string(volume ? "surface_world" : "surface") + ".glsl\"\n";
+    text += "#include \"technique/coefficients_" +
+            std::string(volume   ? "volume"
+                        : vertex ? "vertex"
+                                 : "lightmap") +
+            ".glsl\"\n";
     text += "#include \"basis/" + file + "\"\n";
     text += "#include \"technique/irradiance_main.glsl\"\n";
   } else {
     text += "#include \"technique/" + file + "\"\n";
   }
-  return resolve_shader(vertex ? name + "_vertex" : name, text, name);
+  return resolve_shader(name + (vertex ? "_vertex" : volume ? "_volume" : ""), text, name);
 }
 
 ShaderSource basis_values_source(const TechniqueInfo& technique) {
@@ -61,6 +73,32 @@ ShaderSource basis_values_source(const TechniqueInfo& technique) {
       "  for (int i = 0; i < BASIS_COUNT; ++i) value[i] = basis_value(i, direction);\n"
       "}\n";
   return resolve_shader(name + "_values", text, name + "_values");
+}
+
+ShaderSource basis_irradiance_source(const TechniqueInfo& technique) {
+  const std::string name(technique.name);
+  if (!technique.is_basis) throw UserError("technique " + name + " is not a basis");
+  const std::string text =
+      "in vec3 direction;\n"
+      "in vec3 coefficients[" +
+      std::to_string(technique.count) +
+      "];\n"
+      "out vec3 irradiance;\n"
+      "out float reads;\n"
+      "int coefficients_read = 0;\n"
+      "vec3 read_coefficient(int i) {\n"
+      "  ++coefficients_read;\n"
+      "  return coefficients[i];\n"
+      "}\n"
+      "#define COEF(i) read_coefficient(i)\n"
+      "#include \"basis/" +
+      std::string(technique.file) +
+      "\"\n"
+      "void main() {\n"
+      "  irradiance = basis_irradiance(direction);\n"
+      "  reads = float(coefficients_read);\n"
+      "}\n";
+  return resolve_shader(name + "_irradiance", text, name + "_irradiance");
 }
 
 }  // namespace twinshade

@@ -9,20 +9,35 @@
 
 namespace twinshade {
 
-enum class Domain { hemisphere, sphere };
-// How irradiance becomes coefficients of a linear basis: see registry.def.
-enum class Projection { least_squares, truncation, value_at_normal };
-// Where a technique's shader reads its coefficients: a sampler2DArray over lightmap UVs, or vertex attributes.
-enum class CoefficientStorage { lightmap, vertex };
+// hemisphere: normals of tangent space, z up. sphere: normals of world space. either: as where its coefficients lie.
+enum class Domain { hemisphere, sphere, either };
+// How irradiance becomes coefficients: see registry.def.
+enum class Projection {
+  least_squares,
+  truncation,
+  value_at_normal,
+  through_sh3,
+  window_hanning,
+  window_lanczos,
+  window_minimum,
+  nonnegative,
+  luma_chroma,
+  irradiance_sh2,
+  zonal,
+  ambient_highlight
+};
+// Where a technique's shader reads its coefficients: a sampler2DArray over lightmap UVs, vertex attributes (both of
+// tangent space), or an irradiance volume, a grid of probes over the scene (world space).
+enum class CoefficientStorage { lightmap, vertex, volume };
 
 struct TechniqueInfo {
   std::string_view name;
   std::string_view file;  // under shaders/basis/ (bases) or shaders/technique/
   bool is_basis;
   Domain domain;          // bases
-  int count;              // coefficients per channel; 0 where not a basis of its own
-  bool linear;            // bases
-  Projection projection;  // linear bases
+  int count;              // RGB coefficients, as COEF numbers them; 0 where not a basis of its own
+  bool linear;            // bases: each channel a sum of coefficients times basis_value
+  Projection projection;  // bases
   std::string_view source;
 };
 
@@ -30,13 +45,21 @@ std::span<const TechniqueInfo> techniques();
 // UserError with the nearest names where there is none.
 const TechniqueInfo& find_technique(std::string_view name);
 
-// The whole fragment shader: for a basis, surface inputs + coefficient storage + basis file + main. Name: "h4" or
-// "h4_vertex". Coefficients of basis b: texture "coefficients_b" (lightmap; layer = coefficient) or attributes
-// "coefficients_b[i]" (vertex).
+// Whether a technique can be drawn with coefficients stored so.
+bool can_read(const TechniqueInfo& technique, CoefficientStorage storage);
+
+// The whole fragment shader: for a basis, surface inputs + coefficient storage + basis file + main. Name: "h4",
+// "h4_vertex" or "sh3_volume". Coefficients of basis b: texture "coefficients_b" (lightmap; layer = coefficient),
+// attributes "coefficients_b[i]" (vertex), or texture "volume_b" (technique/coefficients_volume.glsl says which probe
+// is where).
 ShaderSource technique_source(const TechniqueInfo& technique, CoefficientStorage storage);
 
 // For the host: `in vec3 direction` to `out float value[BASIS_COUNT]`, the functions of a linear basis. UserError where
 // the technique is none.
 ShaderSource basis_values_source(const TechniqueInfo& technique);
+
+// For the host, any basis: `in vec3 direction; in vec3 coefficients[BASIS_COUNT]` to `out vec3 irradiance; out float
+// reads`, what basis_irradiance gives and how often it read a coefficient.
+ShaderSource basis_irradiance_source(const TechniqueInfo& technique);
 
 }  // namespace twinshade

@@ -1,7 +1,7 @@
 // The build's translator: one shader becomes one C++ file.
 //   twinshade-translate NAME KIND IDENTIFIER OUT.cpp
-//     NAME: of lighting/registry.def. KIND: lightmap or vertex (the technique's fragment shader with that coefficient
-//     storage), or basis_values (the basis' functions at a direction, for the host).
+//     NAME: of lighting/registry.def. KIND: lightmap, vertex or volume (the technique's fragment shader with that
+//     coefficient storage), basis_values or basis_irradiance (for the host).
 //   twinshade-translate FILE.frag [-I FOLDER]... [--name IDENTIFIER] [--readable] -o OUT.cpp
 #include <cstdio>
 #include <exception>
@@ -30,9 +30,11 @@ struct Job {
 ShaderSource builtin_source(const std::string& name, const std::string& kind) {
   const TechniqueInfo& technique = find_technique(name);
   if (kind == "basis_values") return basis_values_source(technique);
+  if (kind == "basis_irradiance") return basis_irradiance_source(technique);
+  if (kind == "volume") return technique_source(technique, CoefficientStorage::volume);
   if (kind == "lightmap") return technique_source(technique, CoefficientStorage::lightmap);
   if (kind == "vertex") return technique_source(technique, CoefficientStorage::vertex);
-  throw UserError("unknown kind " + kind + "; name lightmap, vertex or basis_values");
+  throw UserError("unknown kind " + kind + "; name lightmap, vertex, volume, basis_values or basis_irradiance");
 }
 
 Job job_of(const std::vector<std::string>& arguments) {

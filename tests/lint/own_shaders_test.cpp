@@ -32,7 +32,7 @@ TEST_CASE("exact functions lint clean") {
   CHECK(count > 10);
 }
 
-TEST_CASE("bases lint clean, alone and in both techniques made of them") {
+TEST_CASE("bases lint clean, alone and in the techniques made of them") {
   int count = 0;
   for (const std::string_view name : builtin_shader_names()) {
     if (name.substr(0, 6) != "basis/") continue;
@@ -40,12 +40,13 @@ TEST_CASE("bases lint clean, alone and in both techniques made of them") {
     check_clean(resolve_shader(std::string(name), array + include_line(name) + "void main() {}\n", "basis.frag"));
     ++count;
     if (name.find("functions") != name.npos || name.find("bands") != name.npos) continue;
-    for (const char* storage : {"lightmap", "vertex"}) {
-      const std::string coefficients = std::string("technique/coefficients_") + storage + ".glsl";
+    for (const std::string storage : {"lightmap", "vertex", "volume"}) {
+      const std::string coefficients = "technique/coefficients_" + storage + ".glsl";
+      const std::string surface = storage == "volume" ? "technique/surface_world.glsl" : "technique/surface.glsl";
       check_clean(resolve_shader(std::string(name) + " " + storage,
                                  "#define COEFFICIENTS coefficients_test\n#define COEFFICIENT_COUNT 64\n" +
-                                     include_line("technique/surface.glsl") + include_line(coefficients) +
-                                     include_line(name) + include_line("technique/irradiance_main.glsl"),
+                                     include_line(surface) + include_line(coefficients) + include_line(name) +
+                                     include_line("technique/irradiance_main.glsl"),
                                  "technique.frag"));
     }
   }

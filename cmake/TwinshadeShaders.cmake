@@ -1,9 +1,11 @@
 # Lists the built-in shading functions and techniques for the build.
 
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/lighting/registry.def)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
+  ${CMAKE_SOURCE_DIR}/lighting/registry.def ${CMAKE_SOURCE_DIR}/lighting/sphere_maps.def)
 file(STRINGS ${CMAKE_SOURCE_DIR}/lighting/registry.def registry_lines REGEX "^(BASIS|TECHNIQUE)\\(")
 # TWINSHADE_SHADERS: name:kind of what the build translates: the technique with its coefficients from lightmaps, vertices and
-# volumes, as its domain allows, and what the host evaluates of a basis. From lighting/registry.def, the only list.
+# volumes, as its domain allows, and what the host evaluates of a basis or of a sphere map. From lighting/registry.def and lighting/sphere_maps.def, the only
+# lists.
 set(TWINSHADE_SHADERS "")
 foreach(line IN LISTS registry_lines)
   string(REGEX REPLACE "^(BASIS|TECHNIQUE)\\(([a-z0-9_]+),.*" "\\2" name "${line}")
@@ -19,6 +21,11 @@ foreach(line IN LISTS registry_lines)
   if(line MATCHES "^BASIS\\([^,]*,[^,]*,[^,]*,[^,]*, true,")
     list(APPEND TWINSHADE_SHADERS ${name}:basis_values)
   endif()
+endforeach()
+file(STRINGS ${CMAKE_SOURCE_DIR}/lighting/sphere_maps.def map_lines REGEX "^SPHERE_MAP\\(")
+foreach(line IN LISTS map_lines)
+  string(REGEX REPLACE "^SPHERE_MAP\\(([a-z0-9_]+),.*" "\\1" name "${line}")
+  list(APPEND TWINSHADE_SHADERS ${name}:map_taps ${name}:map_direction)
 endforeach()
 
 file(GLOB_RECURSE TWINSHADE_GLSL_FILES CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR}/shaders

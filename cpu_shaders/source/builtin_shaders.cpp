@@ -3,26 +3,21 @@
 #include <algorithm>
 #include <span>
 
+#include "base/embedded_file.h"
+
 namespace twinshade {
 
-namespace detail {
-extern const BuiltinShader kBuiltinShaders[];
-extern const std::size_t kBuiltinShaderCount;
-}  // namespace detail
-
-namespace {
-std::span<const detail::BuiltinShader> all() { return {detail::kBuiltinShaders, detail::kBuiltinShaderCount}; }
-}  // namespace
+std::span<const EmbeddedFile> embedded_shaders();  // cmake/TwinshadeEmbed.cmake
 
 std::optional<std::string_view> builtin_shader(std::string_view name) {
-  for (const auto& shader : all())
-    if (shader.name == name) return shader.text;
+  for (const EmbeddedFile& file : embedded_shaders())
+    if (file.path == name) return file.content;
   return std::nullopt;
 }
 
 std::vector<std::string_view> builtin_shader_names() {
   std::vector<std::string_view> names;
-  for (const auto& shader : all()) names.push_back(shader.name);
+  for (const EmbeddedFile& file : embedded_shaders()) names.push_back(file.path);
   std::sort(names.begin(), names.end());
   return names;
 }

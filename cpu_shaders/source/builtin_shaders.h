@@ -1,7 +1,6 @@
 // The files under shaders/, as they were when the program was built. Names are relative to shaders/: "exact/dot.glsl".
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -10,11 +9,5 @@ namespace twinshade {
 
 std::optional<std::string_view> builtin_shader(std::string_view name);
 std::vector<std::string_view> builtin_shader_names();  // sorted
-
-namespace detail {
-struct BuiltinShader {
-  std::string_view name, text;
-};
-}  // namespace detail
 
 }  // namespace twinshade

@@ -1,7 +1,8 @@
 // The build's translator: one shader becomes one C++ file.
 //   twinshade-translate NAME KIND IDENTIFIER OUT.cpp
-//     NAME: of lighting/registry.def. KIND: lightmap, vertex or volume (the technique's fragment shader with that
-//     coefficient storage), basis_values or basis_irradiance (for the host).
+//     NAME: of lighting/registry.def or lighting/sphere_maps.def. KIND: lightmap, vertex or volume (the technique's
+//     fragment shader with that coefficient storage), basis_values, basis_irradiance, map_taps or map_direction (for
+//     the host).
 //   twinshade-translate FILE.frag [-I FOLDER]... [--name IDENTIFIER] [--readable] -o OUT.cpp
 #include <cstdio>
 #include <exception>
@@ -12,6 +13,7 @@
 #include "base/file.h"
 #include "cpu_shaders/translate/translate.h"
 #include "lighting/registry.h"
+#include "lighting/sphere_maps.h"
 
 using namespace twinshade;
 
@@ -28,13 +30,16 @@ struct Job {
 };
 
 ShaderSource builtin_source(const std::string& name, const std::string& kind) {
+  if (kind == "map_taps") return sphere_map_taps_source(find_sphere_map(name));
+  if (kind == "map_direction") return sphere_map_direction_source(find_sphere_map(name));
   const TechniqueInfo& technique = find_technique(name);
   if (kind == "basis_values") return basis_values_source(technique);
   if (kind == "basis_irradiance") return basis_irradiance_source(technique);
   if (kind == "volume") return technique_source(technique, CoefficientStorage::volume);
   if (kind == "lightmap") return technique_source(technique, CoefficientStorage::lightmap);
   if (kind == "vertex") return technique_source(technique, CoefficientStorage::vertex);
-  throw UserError("unknown kind " + kind + "; name lightmap, vertex, volume, basis_values or basis_irradiance");
+  throw UserError("unknown kind " + kind +
+                  "; name lightmap, vertex, volume, basis_values, basis_irradiance, map_taps or map_direction");
 }
 
 Job job_of(const std::vector<std::string>& arguments) {

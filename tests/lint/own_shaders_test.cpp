@@ -9,6 +9,7 @@
 
 #include "cpu_shaders/lint/lint.h"
 #include "cpu_shaders/source/builtin_shaders.h"
+#include "lighting/sphere_maps.h"
 
 namespace twinshade {
 namespace {
@@ -51,6 +52,20 @@ TEST_CASE("bases lint clean, alone and in the techniques made of them") {
     }
   }
   CHECK(count > 6);
+}
+
+TEST_CASE("sphere maps lint clean, alone and as the host reads them") {
+  int count = 0;
+  for (const std::string_view name : builtin_shader_names()) {
+    if (name.substr(0, 11) != "sphere_map/") continue;
+    check_clean(resolve_shader(std::string(name), include_line(name) + "void main() {}\n", "map.frag"));
+    ++count;
+  }
+  CHECK(count >= 10);
+  for (const SphereMapInfo& map : sphere_maps()) {
+    check_clean(sphere_map_taps_source(map));
+    check_clean(sphere_map_direction_source(map));
+  }
 }
 
 TEST_CASE("techniques of their own lint clean") {

@@ -1,0 +1,31 @@
+// The only list of sphere maps (sphere_maps.def): parameterizations of the sphere by square layers of texels.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "cpu_shaders/shader_source.h"
+
+namespace twinshade {
+
+struct SphereMapInfo {
+  std::string_view name;
+  std::string_view file;  // under shaders/sphere_map/
+  int layers;
+  std::string_view source;
+
+  int texels(int width) const { return layers * width * width; }
+};
+
+std::span<const SphereMapInfo> sphere_maps();
+// UserError with the nearest names where there is none.
+const SphereMapInfo& find_sphere_map(std::string_view name);
+
+// For the host: `in vec3 direction; in float width` to `out vec3 texel[4]; out vec4 weight`: the four texels that a
+// direction reads (x, y, layer) and their weights.
+ShaderSource sphere_map_taps_source(const SphereMapInfo& map);
+
+// For the host: `in vec3 texel; in float width` to `out vec3 direction`: the unit direction of a texel's centre.
+ShaderSource sphere_map_direction_source(const SphereMapInfo& map);
+
+}  // namespace twinshade

@@ -28,6 +28,7 @@ Verb add_render(CLI::App& app);
 Verb add_compare(CLI::App& app);
 Verb add_translate(CLI::App& app);
 Verb add_bench(CLI::App& app);
+Verb add_experiment(CLI::App& app);
 
 // Every verb.
 struct CommonOptions {

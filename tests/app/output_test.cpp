@@ -13,7 +13,7 @@ TEST_CASE("help and version succeed on stdout") {
     CHECK_FALSE(run.out.empty());
     CHECK(run.err.empty());
   }
-  for (const char* verb : {"list", "bake", "render", "compare", "translate", "bench"}) {
+  for (const char* verb : {"list", "bake", "render", "compare", "translate", "bench", "experiment"}) {
     CAPTURE(verb);
     const Run run = run_twinshade({verb, "--help"});
     CHECK(run.code == 0);

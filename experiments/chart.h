@@ -1,0 +1,69 @@
+// Charts that one can read: line charts, bar charts and heat maps, as drawings.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/drawing.h"
+
+namespace twinshade {
+
+// Colours that stay apart for colour-blind eyes too (Okabe and Ito, Color Universal Design, 2008, and two more), then
+// the same ones again: series beyond the eighth are told apart by dashes as well.
+Color series_color(std::size_t series);
+std::vector<double> series_dashes(std::size_t series);
+
+struct Axis {
+  std::string title{};  // with its unit
+  bool logarithmic = false;
+  // Without them the axis spans the data. A logarithmic axis must span positive values.
+  std::optional<double> low{}, high{};
+};
+
+struct Series {
+  std::string label;
+  std::vector<double> x,
+      y;                 // as many; where y is not finite, or not positive on a logarithmic axis, the line has a gap
+  bool markers = false;  // a disc at each point
+};
+
+struct LineChart {
+  std::string title, subtitle;
+  Axis x, y;
+  std::vector<Series> series{};  // each labelled at its right end, in its colour
+  double width = 900, height = 560;
+};
+
+// Rows of horizontal bars, or, on a logarithmic axis, where a bar has no honest beginning, of dots.
+struct BarChart {
+  std::string title, subtitle;
+  Axis value;
+  std::vector<std::string> rows;
+  struct Bars {
+    std::string label;           // in the legend, where there is more than one
+    std::vector<double> values;  // of each row; not finite: "-"
+  };
+  std::vector<Bars> bars;
+  double width = 900;
+};
+
+// Values as colours, with the number written into each cell.
+struct HeatMap {
+  std::string title, subtitle;
+  std::vector<std::string> rows, columns;
+  std::vector<double> values;  // [row * columns + column]; not finite: an empty cell
+  bool logarithmic = false;    // of the colours
+};
+
+Drawing draw(const LineChart& chart);
+Drawing draw(const BarChart& chart);
+Drawing draw(const HeatMap& chart);
+
+// The colour of a value in [0, 1], from dark blue to yellow: about matplotlib's viridis (van der Walt and Smith, 2015).
+Color heat_color(double value);
+
+// A value with four significant digits, for people.
+std::string short_number(double value);
+
+}  // namespace twinshade

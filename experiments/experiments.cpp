@@ -1,0 +1,26 @@
+#include "base/error.h"
+#include "base/names.h"
+#include "experiments/experiment.h"
+
+namespace twinshade {
+namespace {
+
+constexpr ExperimentInfo kExperiments[] = {
+    {"frobenius", "how much of the spherical harmonics each basis holds, and the condition of its Gram matrix", false,
+     run_frobenius},
+};
+
+}  // namespace
+
+std::span<const ExperimentInfo> experiments() { return kExperiments; }
+
+const ExperimentInfo& find_experiment(std::string_view name) {
+  std::vector<std::string> names;
+  for (const ExperimentInfo& experiment : kExperiments) {
+    if (experiment.name == name) return experiment;
+    names.emplace_back(experiment.name);
+  }
+  throw UserError(unknown_name_message("experiment", name, names));
+}
+
+}  // namespace twinshade

@@ -1,0 +1,72 @@
+#include "experiments/drawing.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "experiments/chart.h"
+
+using namespace twinshade;
+
+namespace {
+
+// Width and height as the PNG's header has them (ISO 15948, 11.2.2).
+std::pair<unsigned, unsigned> png_size(const std::string& png) {
+  const auto number = [&](std::size_t at) {
+    unsigned value = 0;
+    for (std::size_t k = 0; k < 4; ++k) value = value << 8 | static_cast<unsigned char>(png[at + k]);
+    return value;
+  };
+  return {number(16), number(20)};
+}
+
+std::size_t count(const std::string& text, const std::string& what) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
+  return n;
+}
+
+}  // namespace
+
+TEST_CASE("text is escaped in SVG, and what cannot be seen is not written") {
+  Drawing drawing(100, 50);
+  drawing.text({10, 20.5}, "l < 2 & |m| > 0", {});
+  drawing.path({{1, 1}}, {});
+  const std::string svg = drawing.svg();
+  CHECK(svg.find("<text x=\"10\" y=\"20.5\" font-size=\"12\" fill=\"#000000\">l &lt; 2 &amp; |m| &gt; 0</text>") !=
+        std::string::npos);
+  CHECK(svg.find("polyline") == std::string::npos);
+}
+
+TEST_CASE("an image in a drawing is a PNG within the SVG") {
+  Drawing drawing(10, 10);
+  drawing.image({0, 0}, 10, 10, {2, 1, {255, 0, 0, 0, 0, 255}});
+  CHECK(drawing.svg().find("data:image/png;base64,iVBORw0KGgo") != std::string::npos);  // the signature of PNG
+  CHECK(png_size(drawing.png()) == std::pair(20u, 20u));
+  CHECK(png_size(png_file({2, 1, {255, 0, 0, 0, 0, 255}})) == std::pair(2u, 1u));
+}
+
+TEST_CASE("a line chart leaves gaps where a value is not defined") {
+  LineChart chart;
+  chart.y.logarithmic = true;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  chart.series.push_back({"a", {0, 1, 2, 3, 4, 5, 6}, {1, 2, nan, 3, 4, -1, 7}, true});
+  const std::string svg = draw(chart).svg();
+  CHECK(count(svg, "stroke-width=\"2\"") == 2);  // a lone last point is no line
+  CHECK(count(svg, "<circle") == 5);
+}
+
+TEST_CASE("charts without anything to show are drawn all the same") {
+  CHECK(!draw(LineChart{}).png().empty());
+  CHECK(!draw(BarChart{}).png().empty());
+  CHECK(!draw(HeatMap{}).png().empty());
+  BarChart empty;
+  empty.value.logarithmic = true;
+  empty.rows = {"row"};
+  empty.bars.push_back({"bars", {std::numeric_limits<double>::infinity()}});
+  CHECK(draw(empty).svg().find("inf") == std::string::npos);
+  LineChart constant;
+  constant.series.push_back({"zero", {1, 1}, {0, 0}});
+  CHECK(draw(constant).svg().find("nan") == std::string::npos);
+}

@@ -35,7 +35,8 @@ bool can_read(const TechniqueInfo& technique, CoefficientStorage storage) {
   return technique.domain == Domain::either || storage == CoefficientStorage::volume;
 }
 
-ShaderSource technique_source(const TechniqueInfo& technique, CoefficientStorage storage) {
+ShaderSource technique_source(const TechniqueInfo& technique, CoefficientStorage storage,
+                              const std::vector<std::string>& include_folders) {
   const std::string name(technique.name), file(technique.file);
   if (!can_read(technique, storage))
     throw UserError("technique " + name + " does not read its coefficients from " +
@@ -56,10 +57,10 @@ ShaderSource technique_source(const TechniqueInfo& technique, CoefficientStorage
   } else {
     text += "#include \"technique/" + file + "\"\n";
   }
-  return resolve_shader(name + (vertex ? "_vertex" : volume ? "_volume" : ""), text, name);
+  return resolve_shader(name + (vertex ? "_vertex" : volume ? "_volume" : ""), text, name, include_folders);
 }
 
-ShaderSource basis_values_source(const TechniqueInfo& technique) {
+ShaderSource basis_values_source(const TechniqueInfo& technique, const std::vector<std::string>& include_folders) {
   const std::string name(technique.name);
   if (!technique.is_basis || !technique.linear) throw UserError("technique " + name + " is not a linear basis");
   const std::string text =
@@ -72,10 +73,10 @@ ShaderSource basis_values_source(const TechniqueInfo& technique) {
       "void main() {\n"
       "  for (int i = 0; i < BASIS_COUNT; ++i) value[i] = basis_value(i, direction);\n"
       "}\n";
-  return resolve_shader(name + "_values", text, name + "_values");
+  return resolve_shader(name + "_values", text, name + "_values", include_folders);
 }
 
-ShaderSource basis_irradiance_source(const TechniqueInfo& technique) {
+ShaderSource basis_irradiance_source(const TechniqueInfo& technique, const std::vector<std::string>& include_folders) {
   const std::string name(technique.name);
   if (!technique.is_basis) throw UserError("technique " + name + " is not a basis");
   const std::string text =
@@ -98,7 +99,7 @@ ShaderSource basis_irradiance_source(const TechniqueInfo& technique) {
       "  irradiance = basis_irradiance(direction);\n"
       "  reads = float(coefficients_read);\n"
       "}\n";
-  return resolve_shader(name + "_irradiance", text, name + "_irradiance");
+  return resolve_shader(name + "_irradiance", text, name + "_irradiance", include_folders);
 }
 
 }  // namespace twinshade

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cpu_shaders/shader_source.h"
 
@@ -52,14 +53,17 @@ bool can_read(const TechniqueInfo& technique, CoefficientStorage storage);
 // "h4_vertex" or "sh3_volume". Coefficients of basis b: texture "coefficients_b" (lightmap; layer = coefficient),
 // attributes "coefficients_b[i]" (vertex), or texture "volume_b" (technique/coefficients_volume.glsl says which probe
 // is where).
-ShaderSource technique_source(const TechniqueInfo& technique, CoefficientStorage storage);
+// include_folders: searched for the basis' file before the built-in ones, for techniques that are not in the registry.
+ShaderSource technique_source(const TechniqueInfo& technique, CoefficientStorage storage,
+                              const std::vector<std::string>& include_folders = {});
 
 // For the host: `in vec3 direction` to `out float value[BASIS_COUNT]`, the functions of a linear basis. UserError where
 // the technique is none.
-ShaderSource basis_values_source(const TechniqueInfo& technique);
+ShaderSource basis_values_source(const TechniqueInfo& technique, const std::vector<std::string>& include_folders = {});
 
 // For the host, any basis: `in vec3 direction; in vec3 coefficients[BASIS_COUNT]` to `out vec3 irradiance; out float
 // reads`, what basis_irradiance gives and how often it read a coefficient.
-ShaderSource basis_irradiance_source(const TechniqueInfo& technique);
+ShaderSource basis_irradiance_source(const TechniqueInfo& technique,
+                                     const std::vector<std::string>& include_folders = {});
 
 }  // namespace twinshade

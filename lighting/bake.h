@@ -37,10 +37,6 @@ struct LightBake {
 // procedural coefficients get smooth functions of the vertex instead. UserError where an option is out of range.
 LightBake bake_light(const Scene& scene, const Environment& environment, const BakeOptions& options);
 
-// Row-major matrix [count][25] of a linear basis: coefficient_b of irradiance = sum_j M[b][j] * radiance_j. A_l is
-// folded in. From the basis' GLSL in double, as the registry's projection says.
-std::vector<double> operator_from_radiance(const TechniqueInfo& technique);
-
 struct FrameOptions {
   std::uint32_t width = 1280, height = 800;
   Camera camera;  // usually scene.camera

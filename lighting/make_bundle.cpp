@@ -9,6 +9,7 @@
 #include "lighting/bake.h"
 #include "lighting/camera.h"
 #include "lighting/material_textures.h"
+#include "lighting/projection.h"
 #include "lighting/radiance_basis.h"
 
 namespace twinshade {
@@ -40,20 +41,20 @@ std::vector<const TechniqueInfo*> bases_in_use(const std::vector<const Technique
 
 // Coefficient i of channel c of a cell at [(i * cells + cell) * stride + c].
 std::vector<float> coefficients(const LightBake& light, const TechniqueInfo& basis, std::size_t stride) {
-  const std::vector<double> matrix = operator_from_radiance(basis);
-  const std::size_t cells = std::size_t(light.width) * light.height;
-  std::vector<float> values(basis.count * cells * stride, 0.0f);
-  constexpr std::size_t kBlock = 4096;
+  const Projector projector(basis, kRadianceCount);
+  const std::size_t cells = std::size_t(light.width) * light.height, count = std::size_t(basis.count);
+  std::vector<float> values(count * cells * stride, 0.0f);
+  constexpr std::size_t kBlock = 256;
   parallel_for((cells + kBlock - 1) / kBlock, [&](std::size_t block, int) {
-    for (std::size_t cell = block * kBlock; cell < std::min(cells, (block + 1) * kBlock); ++cell) {
-      const float* radiance = light.sh.data() + cell * kRadianceCount * 3;
-      for (int i = 0; i < basis.count; ++i) {
-        double sum[3] = {};
-        for (int j = 0; j < kRadianceCount; ++j)
-          for (int c = 0; c < 3; ++c) sum[c] += matrix[std::size_t(i) * kRadianceCount + j] * radiance[j * 3 + c];
-        for (int c = 0; c < 3; ++c) values[(i * cells + cell) * stride + c] = float(sum[c]);
-      }
-    }
+    const std::size_t first = block * kBlock, length = std::min(kBlock, cells - first);
+    const float* from = light.sh.data() + first * kRadianceCount * 3;
+    const std::vector<double> radiance(from, from + length * kRadianceCount * 3);
+    std::vector<double> projected(length * count * 3);
+    projector.project(radiance.data(), projected.data(), length);
+    for (std::size_t cell = 0; cell < length; ++cell)
+      for (std::size_t i = 0; i < count; ++i)
+        for (int c = 0; c < 3; ++c)
+          values[(i * cells + first + cell) * stride + c] = float(projected[(cell * count + i) * 3 + c]);
   });
   return values;
 }

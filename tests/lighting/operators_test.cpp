@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "lighting/bake.h"
+#include "lighting/linear_bases.h"
 #include "lighting/quadrature.h"
 #include "lighting/radiance_basis.h"
 

@@ -1,7 +1,5 @@
 #include "experiments/bases.h"
 
-#include <Eigen/Eigenvalues>
-
 #include "base/error.h"
 #include "lighting/radiance_basis.h"
 
@@ -27,24 +25,6 @@ bool is_hemispherical(const TechniqueInfo& basis) { return basis.domain == Domai
 Matrix basis_matrix(const TechniqueInfo& basis, const std::vector<glm::dvec3>& directions) {
   const std::vector<double> values = basis_values(basis, directions);
   return Eigen::Map<const Matrix>(values.data(), Eigen::Index(directions.size()), basis.count);
-}
-
-Matrix weighted_product(const Matrix& a, const std::vector<double>& weights, const Matrix& b) {
-  TWINSHADE_CHECK_EQ(a.rows(), b.rows());
-  TWINSHADE_CHECK_EQ(std::size_t(a.rows()), weights.size());
-  Matrix sum = Matrix::Zero(a.cols(), b.cols());
-  for (Eigen::Index row = 0; row < a.rows(); ++row)
-    for (Eigen::Index i = 0; i < a.cols(); ++i) {
-      const double weighted = weights[std::size_t(row)] * a(row, i);
-      for (Eigen::Index k = 0; k < b.cols(); ++k) sum(i, k) += weighted * b(row, k);
-    }
-  return sum;
-}
-
-double condition_number(const Matrix& symmetric) {
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(symmetric, Eigen::EigenvaluesOnly);
-  const auto& values = solver.eigenvalues();  // ascending
-  return values(values.size() - 1) / values(0);
 }
 
 }  // namespace twinshade

@@ -1,11 +1,11 @@
-// Which bases an experiment measures, and small linear algebra over their functions.
+// Which bases an experiment measures, and their functions as matrices.
 #pragma once
 
 #include <Eigen/Core>
 #include <functional>
+#include <glm/glm.hpp>
 
 #include "experiments/experiment.h"
-#include "lighting/quadrature.h"
 #include "lighting/registry.h"
 
 namespace twinshade {
@@ -21,11 +21,5 @@ bool is_hemispherical(const TechniqueInfo& basis);
 
 // A linear basis' functions at each direction, one row a direction.
 Matrix basis_matrix(const TechniqueInfo& basis, const std::vector<glm::dvec3>& directions);
-
-// a^T diag(weights) b, rows added in order.
-Matrix weighted_product(const Matrix& a, const std::vector<double>& weights, const Matrix& b);
-
-// Largest over smallest eigenvalue of a symmetric matrix.
-double condition_number(const Matrix& symmetric);
 
 }  // namespace twinshade

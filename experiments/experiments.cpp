@@ -6,6 +6,7 @@ namespace twinshade {
 namespace {
 
 constexpr ExperimentInfo kExperiments[] = {
+    {"basis-imse", "error of hemispherical bases on impulses and random signals", false, run_basis_imse},
     {"frobenius", "how much of the spherical harmonics each basis holds, and the condition of its Gram matrix", false,
      run_frobenius},
 };

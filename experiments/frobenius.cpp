@@ -7,14 +7,12 @@
 
 #include "experiments/bases.h"
 #include "experiments/chart.h"
-#include "experiments/sphere_cells.h"
-#include "lighting/radiance_basis.h"
+#include "lighting/linear_bases.h"
 
 namespace twinshade {
 namespace {
 
 constexpr int kLowestOrder = 2, kHighestOrder = 5;
-constexpr int kCellPoints = 8, kHemisphereRings = 48;
 
 std::string why_not(const TechniqueInfo& basis) {
   if (!basis.linear) return "it is not linear, so it has no Gram matrix";
@@ -44,10 +42,7 @@ std::vector<double> norms(const Matrix& residual) {
 }  // namespace
 
 ExperimentResult run_frobenius(const ExperimentOptions& options) {
-  const Quadrature sphere = sphere_cell_quadrature(kCellPoints);
-  const Quadrature hemisphere = sphere_quadrature(0, kHemisphereRings);
-  const Matrix harmonics = basis_matrix(find_technique("sh5"), sphere.directions);
-
+  const TechniqueInfo& harmonics = find_technique("sh5");
   ExperimentResult result{Rows({"basis", "order", "norm", "condition"}), {}, {}};
   HeatMap map{"Frobenius norm of what a basis misses of spherical harmonics",
               "0: all of them lie in its span. Order n: l < n, counted from l = 0.",
@@ -57,21 +52,22 @@ ExperimentResult run_frobenius(const ExperimentOptions& options) {
               true};
   for (const TechniqueInfo* basis : chosen_bases(options, why_not)) {
     options.progress(std::string(basis->name));
-    const Quadrature& points = is_hemispherical(*basis) ? hemisphere : sphere;
-    const Matrix functions = basis_matrix(*basis, points.directions);
-    const Matrix gram = weighted_product(functions, points.weights, functions);
-    const double condition = condition_number(gram);
-    if (is_hemispherical(*basis)) {
-      result.rows.add({std::string(basis->name), Cell(), Cell(), condition});
+    const Domain domain = is_hemispherical(*basis) ? Domain::hemisphere : Domain::sphere;
+    const std::vector<double> gram = gram_matrix(*basis, domain);
+    const double condition = condition_number(gram, basis->count);
+    if (domain == Domain::hemisphere) {
+      result.rows.add({std::string(basis->name), Cell(), Cell(), number_cell(condition)});
       continue;
     }
-    const Matrix products = weighted_product(functions, points.weights, harmonics);
-    const Matrix residual = Matrix::Identity(harmonics.cols(), harmonics.cols()) -
-                            products.transpose() * Matrix(gram.llt().solve(products));
+    const std::vector<double> moments = moment_matrix(*basis, harmonics, Domain::sphere);
+    const Matrix products = Eigen::Map<const Matrix>(moments.data(), basis->count, harmonics.count);
+    const Matrix gram_part = Eigen::Map<const Matrix>(gram.data(), basis->count, basis->count);
+    const Matrix residual = Matrix::Identity(harmonics.count, harmonics.count) -
+                            products.transpose() * Matrix(gram_part.llt().solve(products));
     map.rows.emplace_back(basis->name);
     int order = kLowestOrder;
     for (const double norm : norms(residual)) {
-      result.rows.add({std::string(basis->name), std::int64_t(order++), norm, condition});
+      result.rows.add({std::string(basis->name), std::int64_t(order++), norm, number_cell(condition)});
       map.values.push_back(norm);
     }
     map.values.push_back(condition);

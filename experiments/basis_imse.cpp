@@ -1,0 +1,248 @@
+// The integrated mean squared error of hemispherical bases (Habel and Wimmer, Efficient Irradiance Normal Mapping, I3D
+// 2010, figure 3): the integral over the upper hemisphere of (approximation - E)^2, for one unit impulse in expectation
+// (S1), for random sums of impulses (S2) and for random spherical harmonics (S3); and for a single sun at each
+// elevation.
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "experiments/chart.h"
+#include "experiments/hemisphere_signals.h"
+#include "lighting/linear_bases.h"
+#include "lighting/projection.h"
+#include "lighting/quadrature.h"
+#include "lighting/radiance_basis.h"
+
+namespace twinshade {
+namespace {
+
+constexpr int kPublishedSignals = 10000;
+constexpr std::size_t kBlock = 100;  // signals at a time
+constexpr int kSignalRings = 24, kElevationStep = 5;
+
+std::string why_not(const TechniqueInfo& basis) {
+  if (basis.domain == Domain::sphere) return "it is of the sphere, not of the hemisphere";
+  if (!basis.linear) return "it is not linear";
+  return "";
+}
+
+// How a basis takes a signal, and what it makes of it at some points.
+class Fit {
+ public:
+  Fit(const TechniqueInfo& basis, const Quadrature& points)
+      : basis_(basis), projector_(basis, kRadianceCount), functions_(basis_matrix(basis, points.directions)) {
+    if (!fits_samples()) return;
+    Matrix weighted = functions_.transpose();
+    for (Eigen::Index p = 0; p < weighted.cols(); ++p) weighted.col(p) *= points.weights[std::size_t(p)];
+    Matrix gram = Matrix::Zero(basis.count, basis.count);
+    for (Eigen::Index p = 0; p < weighted.cols(); ++p)
+      for (int i = 0; i < basis.count; ++i)
+        for (int k = 0; k < basis.count; ++k) gram(i, k) += weighted(i, p) * functions_(p, k);
+    solution_ = gram.llt().solve(weighted);
+  }
+
+  const TechniqueInfo& basis() const { return basis_; }
+  const Matrix& functions() const { return functions_; }
+  bool fits_samples() const { return basis_.projection == Projection::least_squares; }
+
+  // Coefficients [function][signal].
+  Matrix coefficients(const SignalBlock& block) const {
+    const Eigen::Index count = block.irradiance.cols();
+    Matrix result = Matrix::Zero(basis_.count, count);
+    if (fits_samples()) {
+      for (Eigen::Index i = 0; i < result.rows(); ++i)
+        for (Eigen::Index p = 0; p < solution_.cols(); ++p) {
+          const double factor = solution_(i, p);
+          for (Eigen::Index s = 0; s < count; ++s) result(i, s) += factor * block.irradiance(p, s);
+        }
+      return result;
+    }
+    for (Eigen::Index s = 0; s < count; ++s) {
+      const std::vector<double> one =
+          from_radiance([&](int j) { return block.radiance(j, s); }, block.flat[std::size_t(s)]);
+      for (int i = 0; i < basis_.count; ++i) result(i, s) = one[std::size_t(i)];
+    }
+    return result;
+  }
+
+  // Of bases that are not fitted to samples.
+  template <class Radiance>
+  std::vector<double> from_radiance(Radiance&& radiance, double flat) const {
+    if (basis_.projection == Projection::value_at_normal) return {flat};
+    std::vector<double> in(kRadianceCount * 3), out(std::size_t(basis_.count) * 3);
+    for (int j = 0; j < kRadianceCount; ++j)
+      for (int c = 0; c < 3; ++c) in[std::size_t(j * 3 + c)] = radiance(j);
+    projector_.project(in.data(), out.data());
+    std::vector<double> one;
+    for (std::size_t i = 0; i < out.size(); i += 3) one.push_back(out[i]);
+    return one;
+  }
+
+ private:
+  const TechniqueInfo& basis_;
+  Projector projector_;
+  Matrix functions_;  // [point][function]
+  Matrix solution_;   // [function][point]: least squares over the points
+};
+
+struct Mean {
+  double value = 0, standard_error = 0;
+};
+
+// Expectation over the impulses, E^2 - 2 c m + c G c integrated: each term over where it is smooth.
+double impulse_error(const Fit& fit, const Impulses& impulses) {
+  const TechniqueInfo& basis = fit.basis();
+  const Matrix values = basis_matrix(basis, impulses.points);
+  const std::vector<double> radiance = radiance_basis(impulses.directions);
+  const std::vector<double> gram_values = gram_matrix(basis, Domain::hemisphere);
+  const Matrix gram = Eigen::Map<const Matrix>(gram_values.data(), basis.count, basis.count);
+  const Eigen::LLT<Matrix> factors(gram);
+  double expectation = 0;
+  for (std::size_t i = 0; i < impulses.directions.size(); ++i) {
+    double energy = 0;
+    Eigen::VectorXd moments = Eigen::VectorXd::Zero(basis.count);
+    for (std::size_t p = i * impulses.points_each; p < (i + 1) * impulses.points_each; ++p) {
+      const double weighted = impulses.point_weights[p] * impulses.irradiance[p];
+      energy += weighted * impulses.irradiance[p];
+      for (int k = 0; k < basis.count; ++k) moments(k) += weighted * values(Eigen::Index(p), k);
+    }
+    Eigen::VectorXd coefficients;
+    if (fit.fits_samples()) {
+      coefficients = factors.solve(moments);
+    } else {
+      const double* light = radiance.data() + i * kRadianceCount;
+      const std::vector<double> list = fit.from_radiance([&](int j) { return light[j]; }, impulses.directions[i].z);
+      coefficients = Eigen::Map<const Eigen::VectorXd>(list.data(), basis.count);
+    }
+    double error = energy;
+    for (int k = 0; k < basis.count; ++k) {
+      error -= 2 * coefficients(k) * moments(k);
+      for (int m = 0; m < basis.count; ++m) error += coefficients(k) * gram(k, m) * coefficients(m);
+    }
+    expectation += impulses.weights[i] * std::max(error, 0.0);
+  }
+  return expectation;
+}
+
+// The residual itself is integrated: differences of squares would cancel.
+std::vector<double> block_errors(const Fit& fit, const SignalBlock& block, const std::vector<double>& weights) {
+  const Matrix coefficients = fit.coefficients(block);
+  const Eigen::Index signals = block.irradiance.cols();
+  std::vector<double> errors(std::size_t(signals), 0.0), residual(errors.size());
+  for (Eigen::Index p = 0; p < block.irradiance.rows(); ++p) {
+    for (Eigen::Index s = 0; s < signals; ++s) residual[std::size_t(s)] = -block.irradiance(p, s);
+    for (Eigen::Index i = 0; i < coefficients.rows(); ++i) {
+      const double value = fit.functions()(p, i);
+      for (Eigen::Index s = 0; s < signals; ++s) residual[std::size_t(s)] += value * coefficients(i, s);
+    }
+    for (std::size_t s = 0; s < errors.size(); ++s) errors[s] += weights[std::size_t(p)] * residual[s] * residual[s];
+  }
+  return errors;
+}
+
+Mean mean_of(const std::vector<double>& values) {
+  double sum = 0, squares = 0;
+  for (const double value : values) sum += value;
+  const double count = double(values.size()), mean = sum / count;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return {mean, values.size() > 1 ? std::sqrt(squares / (count - 1) / count) : 0};
+}
+
+// Of each fit, over random signals of one kind. Blocks are independent and land in their own places.
+std::vector<Mean> random_errors(SignalKind kind, const std::vector<Fit>& fits, const Quadrature& points,
+                                const ExperimentOptions& options) {
+  const std::size_t total = std::size_t(options.samples > 0 ? options.samples : kPublishedSignals);
+  const Matrix radiance = basis_matrix(find_technique("sh5"), points.directions);
+  std::vector<std::vector<double>> errors(fits.size(), std::vector<double>(total));
+  parallel_for((total + kBlock - 1) / kBlock, [&](std::size_t b, int) {
+    const std::size_t first = b * kBlock, count = std::min(kBlock, total - first);
+    const SignalBlock block = random_signals(kind, options.seed, first, count, points.directions, radiance);
+    for (std::size_t f = 0; f < fits.size(); ++f) {
+      const std::vector<double> part = block_errors(fits[f], block, points.weights);
+      std::copy(part.begin(), part.end(), errors[f].begin() + std::ptrdiff_t(first));
+    }
+  });
+  std::vector<Mean> means;
+  for (const std::vector<double>& list : errors) means.push_back(mean_of(list));
+  return means;
+}
+
+Drawing error_chart(const std::vector<Fit>& fits, const std::vector<std::vector<Mean>>& signals,
+                    const std::vector<std::string>& labels) {
+  BarChart chart;
+  chart.title = "Error of hemispherical irradiance bases";
+  chart.subtitle = "S1: one impulse (expectation); S2: 16 impulses; S3: random SH. S2 and S3: means of random signals.";
+  chart.value.title = "IMSE: integral of the squared error over the hemisphere, irradiance² sr";
+  chart.value.logarithmic = true;
+  std::vector<std::size_t> order(fits.size());
+  for (std::size_t f = 0; f < order.size(); ++f) order[f] = f;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return signals[0][a].value > signals[0][b].value; });
+  for (const std::size_t f : order)
+    chart.rows.push_back(fmt::format("{} ({})", fits[f].basis().name, fits[f].basis().count));
+  for (std::size_t s = 0; s < signals.size(); ++s) {
+    chart.bars.push_back({labels[s], {}});
+    for (const std::size_t f : order) chart.bars.back().values.push_back(signals[s][f].value);
+  }
+  return draw(chart);
+}
+
+}  // namespace
+
+ExperimentResult run_basis_imse(const ExperimentOptions& options) {
+  const std::vector<const TechniqueInfo*> bases = chosen_bases(options, why_not);
+  ExperimentResult result{Rows({"basis", "signal", "imse", "stderr"}), {}, {}};
+
+  // Impulses, by quadrature: one sun at each elevation, and the expectation over all directions.
+  std::vector<Impulses> suns;
+  for (int degrees = 0; degrees <= 90; degrees += kElevationStep) suns.push_back(impulses_at_elevation(degrees));
+  suns.push_back(uniform_impulses());
+  options.progress("fitting");
+  const Quadrature points = sphere_quadrature(0, kSignalRings);
+  std::vector<Fit> fits;
+  for (const TechniqueInfo* basis : bases) fits.emplace_back(*basis, points);
+  std::vector<std::vector<double>> sun_errors(bases.size());
+  parallel_for(bases.size(), [&](std::size_t b, int) {
+    for (const Impulses& sun : suns) sun_errors[b].push_back(impulse_error(fits[b], sun));
+  });
+
+  std::vector<std::vector<Mean>> signals(3);
+  for (const std::vector<double>& errors : sun_errors) signals[0].push_back({errors.back(), 0});
+  options.progress("random impulses");
+  signals[1] = random_errors(SignalKind::impulses, fits, points, options);
+  options.progress("random harmonics");
+  signals[2] = random_errors(SignalKind::harmonics, fits, points, options);
+
+  LineChart sweep;
+  sweep.title = "A single sun over its elevation";
+  sweep.subtitle =
+      "Unit impulse; mean over azimuths. S1 is the mean of these, weighted by the cosine of the elevation.";
+  sweep.x.title = "elevation above the horizon, degrees";
+  sweep.y.title = "IMSE, irradiance² sr";
+  sweep.y.logarithmic = true;
+  for (std::size_t b = 0; b < bases.size(); ++b) {
+    const std::string name(bases[b]->name);
+    const std::vector<std::string> labels{"S1", "S2", "S3"};
+    for (std::size_t s = 0; s < labels.size(); ++s)
+      result.rows.add({name, labels[s], signals[s][b].value, s == 0 ? Cell() : Cell(signals[s][b].standard_error)});
+    sweep.series.push_back({name, {}, {}, false});
+    for (std::size_t k = 0; k + 1 < suns.size(); ++k) {
+      const int degrees = int(k) * kElevationStep;
+      result.rows.add({name, fmt::format("sun_{}", degrees), sun_errors[b][k], Cell()});
+      sweep.series.back().x.push_back(degrees);
+      sweep.series.back().y.push_back(sun_errors[b][k]);
+    }
+  }
+  result.notes.push_back(
+      "sun_E: one unit impulse E degrees above the horizon. S1 and suns by quadrature: no standard error.");
+  if (options.pictures && !bases.empty()) {
+    result.pictures.push_back({"basis-imse", error_chart(fits, signals, {"S1", "S2", "S3"})});
+    result.pictures.push_back({"basis-imse-sun", draw(sweep)});
+  }
+  return result;
+}
+
+}  // namespace twinshade

@@ -31,12 +31,16 @@ set(TWINSHADE_NUMBERS_baseline 31)
 set(TWINSHADE_NUMBERS_avx2 2)
 set(TWINSHADE_NUMBERS_avx512 4)
 
-# twinshade_isa_objects(NAME OUT_OBJECTS source...): compiles the sources once per instruction set, with the macros
-# TWINSHADE_ISA and TWINSHADE_NUMBERS; OUT_OBJECTS receives the object expressions.
+# twinshade_isa_objects(NAME OUT_OBJECTS [HEADER precompiled_header.h] source...): compiles the sources once per instruction set,
+# with the macros TWINSHADE_ISA and TWINSHADE_NUMBERS; OUT_OBJECTS receives the object expressions.
 function(twinshade_isa_objects name out)
+  cmake_parse_arguments(O "" "HEADER" "" ${ARGN})
   set(objects "")
   foreach(isa ${TWINSHADE_ISAS})
-    add_library(${name}_${isa} OBJECT ${ARGN})
+    add_library(${name}_${isa} OBJECT ${O_UNPARSED_ARGUMENTS})
+    if(O_HEADER)
+      target_precompile_headers(${name}_${isa} PRIVATE ${CMAKE_SOURCE_DIR}/${O_HEADER})
+    endif()
     target_link_libraries(${name}_${isa} PRIVATE twinshade_flags)
     target_compile_options(${name}_${isa} PRIVATE ${TWINSHADE_ISA_FLAGS_${isa}})
     target_compile_definitions(${name}_${isa} PRIVATE TWINSHADE_ISA=${isa} TWINSHADE_NUMBERS=${TWINSHADE_NUMBERS_${isa}})

@@ -94,9 +94,10 @@ class ModuleEmitter {
   }
 
   // Inlining everything is what GPUs do and what keeps values in registers; large functions called from many places
-  // would multiply the code, though.
+  // would multiply the code, and the compiler's time, though.
   void choose_inlined() {
     constexpr std::size_t kLargestInlined = 800;  // instructions, those of inlined callees included
+    constexpr std::size_t kMostCopies = 2000;     // instructions of all copies together
     std::map<const Instance*, std::size_t> size, call_sites;
     for (const Instance* i : instances_.callees_first)
       for (const auto& [call, callee] : i->callees) ++call_sites[callee];
@@ -104,7 +105,7 @@ class ModuleEmitter {
       std::size_t& own = size[i];
       for_each_statement(i->info->body.list, [&](const Statement& s) { own += s.code.size() + 1; });
       for (const auto& [call, callee] : i->callees) own += callee->inlined ? size[callee] : 1;
-      i->inlined = own <= kLargestInlined || call_sites[i] <= 1;
+      i->inlined = call_sites[i] <= 1 || (own <= kLargestInlined && own * call_sites[i] <= kMostCopies);
     }
   }
 

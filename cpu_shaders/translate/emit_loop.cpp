@@ -193,6 +193,9 @@ void FunctionEmitter::cases(const Statement& s) {
     out_.line(c.falls_through || jumps ? "}" : "} break;");
     if (c.falls_through) out_.line("[[fallthrough]];");
   }
+  // clang warns, with no way to say otherwise, of a constant that no case names.
+  if (std::none_of(s.cases.begin(), s.cases.end(), [](const Case& c) { return c.is_default; }))
+    out_.line("default: break;");
   out_.close("}");
   for (Mask& m : masks_) --m.uniform_depth;
 }

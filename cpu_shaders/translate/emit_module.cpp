@@ -360,7 +360,11 @@ class ModuleEmitter {
                        "#pragma GCC diagnostic ignored \"-Wunused-variable\"\n"
                        "#pragma GCC diagnostic ignored \"-Wunused-but-set-variable\"\n"
                        "#pragma GCC diagnostic ignored \"-Wunused-but-set-parameter\"\n"
-                       "#pragma GCC diagnostic ignored \"-Wunused-function\"\n\n"
+                       "#pragma GCC diagnostic ignored \"-Wunused-function\"\n"
+                       "#pragma GCC diagnostic ignored \"-Wshadow\"\n"
+                       "#ifdef __clang__\n"
+                       "#pragma clang diagnostic ignored \"-Wself-assign-overloaded\"\n"
+                       "#endif\n\n"
                        "namespace twinshade {\ninline namespace TWINSHADE_ISA_NAMESPACE {\nnamespace {\n\n"
                        "template <class N>\nstruct Shader : ShaderBase<N> {\n  using Base = ShaderBase<N>;\n";
     for (const char* name : {"kept", "live", "frag_coord", "front_facing", "primitive_id", "frag_depth", "output"})

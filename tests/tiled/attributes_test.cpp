@@ -46,18 +46,22 @@ Bundle with_flat_vertex_data(const Bundle& bundle) {
 TEST_CASE("exact attributes, depth, 1 / w and facing are those of exact/attributes.glsl") {
   const Bundle bundle = with_flat_vertex_data(test::torture_bundle(400, 300, 2500, 31));
   const ShaderSource source = load_shader(TWINSHADE_SOURCE_DIR "/shaders/host/attributes_probe.frag");
-  for (const auto& [isa, number] : {std::pair{Isa::baseline, Number::lanes4},
-                                    {Isa::baseline, Number::scalar},
-                                    {Isa::baseline, Number::float64},
-                                    {Isa::avx2, Number::lanes8},
-                                    {Isa::avx512, Number::lanes16}}) {
-    if (isa > machine_isa()) continue;
-    CAPTURE(int(number));
+  struct Variant {
+    Isa isa;
+    Number number;
+  };
+  for (const Variant variant : {Variant{Isa::baseline, Number::lanes4},
+                                {Isa::baseline, Number::scalar},
+                                {Isa::baseline, Number::float64},
+                                {Isa::avx2, Number::lanes8},
+                                {Isa::avx512, Number::lanes16}}) {
+    if (variant.isa > machine_isa()) continue;
+    CAPTURE(int(variant.number));
     DrawOptions options;
-    options.isa = isa;
-    options.number = number;
+    options.isa = variant.isa;
+    options.number = variant.number;
     const Frame ours = draw_tiled(bundle, test::exact_values_module(), options);
-    const Frame glsl = draw_tiled(bundle, load_module(source, number, isa), options);
+    const Frame glsl = draw_tiled(bundle, load_module(source, variant.number, variant.isa), options);
     REQUIRE(ours.primitive_id == glsl.primitive_id);
     std::size_t different = 0, compared = 0;
     for (std::size_t p = 0; p < ours.coverage.size(); ++p)

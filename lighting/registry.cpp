@@ -18,6 +18,13 @@ constexpr TechniqueInfo kTechniques[] = {
 #undef TECHNIQUE
 };
 
+// A direction with a NaN counts as the zero vector, for which every basis has a value.
+constexpr const char* kDefinedDirection =
+    "vec3 defined_direction() {\n"
+    "  bool defined = direction.x == direction.x && direction.y == direction.y && direction.z == direction.z;\n"
+    "  return defined ? direction : vec3(0.0);\n"
+    "}\n";
+
 }  // namespace
 
 std::span<const TechniqueInfo> techniques() { return kTechniques; }
@@ -69,9 +76,11 @@ ShaderSource basis_values_source(const TechniqueInfo& technique, const std::vect
       std::string(technique.file) +
       "\"\n"
       "in vec3 direction;\n"
-      "out float value[BASIS_COUNT];\n"
+      "out float value[BASIS_COUNT];\n" +
+      kDefinedDirection +
       "void main() {\n"
-      "  for (int i = 0; i < BASIS_COUNT; ++i) value[i] = basis_value(i, direction);\n"
+      "  vec3 n = defined_direction();\n"
+      "  for (int i = 0; i < BASIS_COUNT; ++i) value[i] = basis_value(i, n);\n"
       "}\n";
   return resolve_shader(name + "_values", text, name + "_values", include_folders);
 }
@@ -93,10 +102,9 @@ ShaderSource basis_irradiance_source(const TechniqueInfo& technique, const std::
       "}\n"
       "#define COEF(i) read_coefficient(i)\n"
       "#include \"basis/" +
-      std::string(technique.file) +
-      "\"\n"
+      std::string(technique.file) + "\"\n" + kDefinedDirection +
       "void main() {\n"
-      "  irradiance = basis_irradiance(direction);\n"
+      "  irradiance = basis_irradiance(defined_direction());\n"
       "  reads = float(coefficients_read);\n"
       "}\n";
   return resolve_shader(name + "_irradiance", text, name + "_irradiance", include_folders);

@@ -58,7 +58,7 @@ ShaderSource technique_source(const TechniqueInfo& technique, CoefficientStorage
                               const std::vector<std::string>& include_folders = {});
 
 // For the host: `in vec3 direction` to `out float value[BASIS_COUNT]`, the functions of a linear basis. UserError where
-// the technique is none.
+// the technique is none. A direction with a NaN counts as the zero vector, here and below.
 ShaderSource basis_values_source(const TechniqueInfo& technique, const std::vector<std::string>& include_folders = {});
 
 // For the host, any basis: `in vec3 direction; in vec3 coefficients[BASIS_COUNT]` to `out vec3 irradiance; out float

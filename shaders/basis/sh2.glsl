@@ -1,4 +1,4 @@
-// Spherical harmonics of order 2 (l <= 1), in tangent space.
+// Spherical harmonics of order 2 (l <= 1).
 // Includer defines COEF(i): coefficient i as vec3. n: unit normal.
 #include "basis/sh_functions.glsl"
 

@@ -1,4 +1,4 @@
-// Spherical harmonics of order 5 (l <= 4), in tangent space. Baked radiance is projected on these.
+// Spherical harmonics of order 5 (l <= 4). Baked radiance is projected on these.
 // Includer defines COEF(i): coefficient i as vec3. n: unit normal.
 #include "basis/sh_functions.glsl"
 #include "basis/sh_bands_3_4.glsl"

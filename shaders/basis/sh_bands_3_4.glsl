@@ -57,7 +57,8 @@ float sh_19(vec3 n) {
 }
 
 float sh_20(vec3 n) {
-  precise float value = (((n.z * n.z) * 35.0 - 30.0) * (n.z * n.z) + 3.0) * 0.105785547;  // sqrt(9/256pi) (35z^4 - 30z^2 + 3)
+  // sqrt(9/256pi) (35z^4 - 30z^2 + 3)
+  precise float value = (((n.z * n.z) * 35.0 - 30.0) * (n.z * n.z) + 3.0) * 0.105785547;
   return value;
 }
 
@@ -67,7 +68,8 @@ float sh_21(vec3 n) {
 }
 
 float sh_22(vec3 n) {
-  precise float value = ((n.x * n.x - n.y * n.y) * ((n.z * n.z) * 7.0 - 1.0)) * 0.473087348;  // sqrt(45/64pi) (x^2 - y^2)(7z^2 - 1)
+  // sqrt(45/64pi) (x^2 - y^2)(7z^2 - 1)
+  precise float value = ((n.x * n.x - n.y * n.y) * ((n.z * n.z) * 7.0 - 1.0)) * 0.473087348;
   return value;
 }
 
@@ -77,6 +79,7 @@ float sh_23(vec3 n) {
 }
 
 float sh_24(vec3 n) {
-  precise float value = ((n.x * n.x) * (n.x * n.x - (n.y * n.y) * 6.0) + (n.y * n.y) * (n.y * n.y)) * 0.625835735;  // sqrt(315/256pi) (x^4 - 6x^2 y^2 + y^4)
+  // sqrt(315/256pi) (x^4 - 6x^2 y^2 + y^4)
+  precise float value = ((n.x * n.x) * (n.x * n.x - (n.y * n.y) * 6.0) + (n.y * n.y) * (n.y * n.y)) * 0.625835735;
   return value;
 }

@@ -54,7 +54,8 @@ TEST_CASE("errors of hemispherical bases: one impulse by quadrature, random sign
     if (found == kTable.end()) continue;
     CAPTURE(basis);
     const auto row = [&](const char* signal) { return table.at({basis, signal}); };
-    CHECK(std::abs(row("S1").first / found->second.s1 - 1) < 1e-5);
+    // The expected numbers are quadratures too: H4's is 7e-6 off the closed form of the next test
+    CHECK(std::abs(row("S1").first / found->second.s1 - 1) < 2e-5);
     // The expected numbers are means of 10,000 as well
     const double errors = 3 * std::sqrt(1 + own / published);
     CHECK(std::abs(row("S2").first - found->second.s2) < errors * row("S2").second);

@@ -106,7 +106,10 @@ TEST_CASE("every linear basis gives a constant sky over open ground the light th
   sky[12] = -2 * pi * std::sqrt(7 / (4 * pi)) / 8;  // integral of P_3 over [0, 1] is -1/8
   const Quadrature q = sphere_quadrature(0, 24);
   for (const TechniqueInfo& basis : techniques()) {
-    if (!basis.is_basis || !basis.linear) continue;
+    if (!basis.is_basis || !basis.linear || basis.domain == Domain::sphere) continue;
+    if (basis.projection != Projection::least_squares && basis.projection != Projection::truncation &&
+        basis.projection != Projection::value_at_normal)
+      continue;
     CAPTURE(std::string(basis.name));
     const std::vector<double> matrix = operator_from_radiance(basis);
     const std::vector<double> values = basis_values(basis, q.directions);
@@ -127,7 +130,8 @@ TEST_CASE("every linear basis gives a constant sky over open ground the light th
       for (int i = 0; i < basis.count; ++i) moment[i] += q.weights[p] * error * values[p * basis.count + i];
     }
     for (const double m : moment) CHECK(std::abs(m) < 1e-5);
-    if (basis.name != "hl2" && basis.name != "directional_occlusion") CHECK(worst < 1e-5);
+    // These lack the constant, or z
+    if (basis.name != "hl2" && basis.name != "directional_occlusion" && basis.name != "zernike3") CHECK(worst < 1e-5);
   }
 }
 

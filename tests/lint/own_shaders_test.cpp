@@ -37,6 +37,7 @@ TEST_CASE("bases lint clean, alone and in the techniques made of them") {
   int count = 0;
   for (const std::string_view name : builtin_shader_names()) {
     if (name.substr(0, 6) != "basis/") continue;
+    if (name.find("lobe_functions") != name.npos) continue;  // part of the bases that define its lobe
     const std::string array = "uniform vec3 stored[64];\n#define COEF(i) stored[i]\n";
     check_clean(resolve_shader(std::string(name), array + include_line(name) + "void main() {}\n", "basis.frag"));
     ++count;
@@ -51,7 +52,7 @@ TEST_CASE("bases lint clean, alone and in the techniques made of them") {
                                  "technique.frag"));
     }
   }
-  CHECK(count > 6);
+  CHECK(count > 40);
 }
 
 TEST_CASE("sphere maps lint clean, alone and as the host reads them") {

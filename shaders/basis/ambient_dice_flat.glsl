@@ -1,0 +1,26 @@
+// Ambient Dice, flat cubic Bezier patches: 12 values and gradients on the vertices of an icosahedron, 9 coefficients read.
+// Iwanicki and Sloan, Ambient Dice, EGSR 2017, section 4.
+// A constant is exact; the gradients of neighbouring patches meet on the flat icosahedron, not on the sphere.
+// Includer defines COEF(i): coefficient i as vec3, i = 3 vertex + {value, d/de1, d/de2}. n: unit normal.
+#include "basis/ambient_dice_bezier_functions.glsl"
+
+const int BASIS_COUNT = 36;
+
+float basis_value(int i, vec3 n) {
+  return dice_weight(dice_flat_weights(dice_triangle(n)), i);
+}
+
+vec3 basis_irradiance(vec3 n) {
+  DiceWeights weights = dice_flat_weights(dice_triangle(n));
+  ivec3 base = weights.vertex * 3;
+  precise vec3 irradiance = COEF(base.x) * weights.first.x;
+  irradiance += COEF(base.x + 1) * weights.first.y;
+  irradiance += COEF(base.x + 2) * weights.first.z;
+  irradiance += COEF(base.y) * weights.second.x;
+  irradiance += COEF(base.y + 1) * weights.second.y;
+  irradiance += COEF(base.y + 2) * weights.second.z;
+  irradiance += COEF(base.z) * weights.third.x;
+  irradiance += COEF(base.z + 1) * weights.third.y;
+  irradiance += COEF(base.z + 2) * weights.third.z;
+  return irradiance;
+}

@@ -1,0 +1,33 @@
+// Ambient Dice, linear: 12 values on the vertices of an icosahedron, 3 read, weighted by planar barycentric
+// coordinates, of sum 1: a constant is exact. Iwanicki and Sloan, Ambient Dice, EGSR 2017, section 3.
+// Includer defines COEF(i): coefficient i as vec3, the irradiance at vertex i. n: unit normal.
+#include "basis/ambient_dice_functions.glsl"
+
+const int BASIS_COUNT = 12;
+
+DiceTriangle dice_planar_triangle(vec3 n) {
+  DiceTriangle triangle = dice_triangle(n);
+  vec3 b = triangle.barycentric;
+  precise float sum = (b.x + b.y) + b.z;
+  precise float scale = 1.0 / sum;
+  scale = sum > 0.0 ? scale : 0.0;
+  precise vec3 planar = b * scale;
+  triangle.barycentric = planar;
+  return triangle;
+}
+
+float basis_value(int i, vec3 n) {
+  DiceTriangle triangle = dice_planar_triangle(n);
+  return i == triangle.vertex.x   ? triangle.barycentric.x
+         : i == triangle.vertex.y ? triangle.barycentric.y
+         : i == triangle.vertex.z ? triangle.barycentric.z
+                                  : 0.0;
+}
+
+vec3 basis_irradiance(vec3 n) {
+  DiceTriangle triangle = dice_planar_triangle(n);
+  precise vec3 irradiance = COEF(triangle.vertex.x) * triangle.barycentric.x;
+  irradiance += COEF(triangle.vertex.y) * triangle.barycentric.y;
+  irradiance += COEF(triangle.vertex.z) * triangle.barycentric.z;
+  return irradiance;
+}

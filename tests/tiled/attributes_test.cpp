@@ -71,7 +71,7 @@ TEST_CASE("exact attributes, depth, 1 / w and facing are those of exact/attribut
             !(std::isnan(a) && std::isnan(b)) && std::bit_cast<std::uint32_t>(a) != std::bit_cast<std::uint32_t>(b);
         ++compared;
         // What decided the depth test is what the shader computes.
-        if (c == 1 && number != Number::float64) different += ours.depth[p] != b;
+        if (c == 1 && variant.number != Number::float64) different += ours.depth[p] != b;
       }
     CHECK(different == 0);
     CHECK(compared > 100000);

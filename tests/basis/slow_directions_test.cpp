@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "base/parallel.h"
 #include "tests/basis/all_directions.h"
@@ -12,7 +13,7 @@
 namespace twinshade::test {
 namespace {
 
-constexpr std::size_t kDirections = 100'000'000, kBlock = 50'000;
+constexpr std::size_t kDirections = 100'000'000, kBlock = 20'000;
 
 template <class Check>
 void for_all_blocks(Check check) {
@@ -34,14 +35,15 @@ TEST_CASE("10^8 directions: the triangle is the one that brute force finds") {
 }
 
 TEST_CASE("10^8 directions: no basis gives NaN") {
-  std::set<std::string> done;
-  for (const TechniqueInfo& basis : techniques()) {
-    if (!basis.is_basis || !done.insert(std::string(basis.file)).second) continue;
-    std::atomic<int> bad = 0;
-    for_all_blocks([&](const std::vector<glm::dvec3>& directions) { bad += count_not_finite(basis, directions); });
-    MESSAGE(basis.name << ": " << bad << " of 10^8 not finite");
-    CHECK(bad == 0);
-  }
+  std::set<std::string> files;
+  std::vector<const TechniqueInfo*> chosen;  // one of each file
+  for (const TechniqueInfo& basis : techniques())
+    if (basis.is_basis && files.insert(std::string(basis.file)).second) chosen.push_back(&basis);
+  std::vector<std::atomic<int>> bad(chosen.size());
+  for_all_blocks([&](const std::vector<glm::dvec3>& directions) {
+    for (std::size_t i = 0; i < chosen.size(); ++i) bad[i] += count_not_finite(*chosen[i], directions);
+  });
+  for (std::size_t i = 0; i < chosen.size(); ++i) CHECK_MESSAGE(bad[i] == 0, std::string(chosen[i]->name));
 }
 
 }  // namespace twinshade::test

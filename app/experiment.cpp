@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "app/machines.h"
 #include "app/output.h"
 #include "app/provenance.h"
 #include "app/table.h"
@@ -99,6 +100,11 @@ int ExperimentVerb::run() {
   if (!folder.empty()) require_writable_folder(folder);
   options.seed = common.seed;
   options.pictures = !folder.empty();
+  if (!options.on.empty()) require_backends(options.on);
+  Machines machines(CpuOptions(), true);
+  options.draw = [&](const std::string& machine, const Bundle& bundle, const ShaderSource& source) {
+    return machines.draw(machine, bundle, source, DrawOptions());
+  };
   options.progress = [&](const std::string& line) { output.progress(name + ": " + line); };
   const ExperimentResult result = experiment.run(options);
 
@@ -132,6 +138,15 @@ Verb add_experiment(CLI::App& app) {
       ->delimiter(',')
       ->type_name("B,...");
   command->add_option("--map", verb->options.maps, "only these sphere maps")->delimiter(',')->type_name("M,...");
+  command->add_option("--map-width", verb->options.widths, "only these widths")->delimiter(',')->type_name("W,...");
+  command->add_option("--order", verb->options.orders, "only these orders of spherical harmonics")
+      ->delimiter(',')
+      ->type_name("N,...");
+  command
+      ->add_option("--on", verb->options.on,
+                   "sphere-map-mse: read the maps on these machines, by the shader itself, and compare the bits")
+      ->delimiter(',')
+      ->type_name("M,...");
   command
       ->add_option("--samples", verb->options.samples,
                    "random signals or points (default: as many as the published figures need)")

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "experiments/drawing.h"
+#include "raster/renderer.h"
 
 namespace twinshade {
 
@@ -53,6 +54,9 @@ struct Picture {
   std::variant<Drawing, RadiometricImage> content;
 };
 
+// Draws a bundle on a machine ("cpu", "egl", "osmesa").
+using DrawFunction = std::function<Frame(const std::string& machine, const Bundle&, const ShaderSource&)>;
+
 struct ExperimentOptions {
   std::uint64_t seed = 1;
   std::vector<std::string> bases{};   // names from the registry; empty: every basis that the experiment can measure
@@ -61,6 +65,10 @@ struct ExperimentOptions {
   int samples = 0;                    // random signals or points; 0: as many as the published figures need
   bool relative = false;              // errors relative to the signal as well
   bool clamp_radiance = false;        // accept probes with NaN, infinite or negative radiance
+  std::vector<int> widths = {};       // of sphere maps; empty: those of the published figure
+  std::vector<int> orders = {};       // of spherical harmonics; empty: those of the published figure
+  std::vector<std::string> on = {};   // machines that read sphere maps; empty: the host, in double
+  DrawFunction draw = {};             // how; only needed where `on` names one
   bool pictures = true;               // false: rows only
   std::function<void(const std::string&)> progress = [](const std::string&) {};
 };
@@ -88,6 +96,7 @@ const ExperimentInfo& find_experiment(std::string_view name);
 ExperimentResult run_basis_imse(const ExperimentOptions& options);
 ExperimentResult run_frobenius(const ExperimentOptions& options);
 ExperimentResult run_probe_rmse(const ExperimentOptions& options);
+ExperimentResult run_sphere_map_mse(const ExperimentOptions& options);
 ExperimentResult run_wobble(const ExperimentOptions& options);
 ExperimentResult run_figures(const ExperimentOptions& options);
 

@@ -9,6 +9,8 @@ constexpr ExperimentInfo kExperiments[] = {
     {"basis-imse", "error of hemispherical bases on impulses and random signals", false, run_basis_imse},
     {"frobenius", "how much of the spherical harmonics each basis holds, and the condition of its Gram matrix", false,
      run_frobenius},
+    {"sphere-map-mse", "error of sphere maps that store spherical harmonics, against their size", false,
+     run_sphere_map_mse},
 };
 
 }  // namespace

@@ -59,4 +59,20 @@ ShaderSource sphere_map_direction_source(const SphereMapInfo& map) {
   return resolve_shader(name, text, name);
 }
 
+ShaderSource sphere_map_read_source(const SphereMapInfo& map) {
+  const std::string name = std::string(map.name) + "_read";
+  const std::string text = "#include \"sphere_map/" + std::string(map.file) +
+                           "\"\n"
+                           "uniform sampler2D directions;\n"
+                           "uniform sampler2DArray maps;\n"
+                           "uniform int width;\n"
+                           "uniform int first_layer;\n"
+                           "out vec4 color;\n"
+                           "void main() {\n"
+                           "  vec3 direction = texelFetch(directions, ivec2(gl_FragCoord.xy), 0).rgb;\n"
+                           "  color = sphere_map_fetch(maps, sphere_map_taps(direction, width), first_layer);\n"
+                           "}\n";
+  return resolve_shader(name, text, name);
+}
+
 }  // namespace twinshade

@@ -28,4 +28,8 @@ ShaderSource sphere_map_taps_source(const SphereMapInfo& map);
 // For the host: `in vec3 texel; in float width` to `out vec3 direction`: the unit direction of a texel's centre.
 ShaderSource sphere_map_direction_source(const SphereMapInfo& map);
 
+// For renderers: the fragment shader that reads `uniform sampler2DArray maps` (map width `uniform int width`, from
+// layer `uniform int first_layer` on) in the direction that `uniform sampler2D directions` has at the pixel.
+ShaderSource sphere_map_read_source(const SphereMapInfo& map);
+
 }  // namespace twinshade

@@ -49,6 +49,7 @@ Verb add_bake(CLI::App& app) {
   const auto verb = std::make_shared<BakeVerb>();
   add_subject_options(*command, verb->subject);
   add_technique_option(*command, verb->shading, "all");
+  add_light_option(*command, verb->shading);
   command->add_option("-o,--output", verb->file, "bundle file to write")->type_name("BUNDLE")->required();
   add_common_options(*command, verb->common);
   return {command, [verb] { return verb->run(); }};

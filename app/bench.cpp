@@ -60,6 +60,7 @@ class BenchRun {
         subject_(load_subject(verb.subject, verb.shading, verb.common, output)) {
     provenance_.add(subject_);
     table_.column("technique");
+    table_.column("light");
     table_.column("renderer");
     table_.column("isa");
     table_.column("attributes");
@@ -69,6 +70,8 @@ class BenchRun {
 
   int run() {
     std::string skipped;
+    for (const auto& [technique, reason] : subject_.skipped)
+      skipped += fmt::format("skipped {}: {}\n", technique, reason);
     for (const Shading& shader : load_shadings(verb_.shading, subject_)) {
       try {
         measure(shader);
@@ -111,7 +114,7 @@ class BenchRun {
     provenance_.add(shader);
     std::vector<Way> all = ways();
     for (int round = 0; round < verb_.rounds; ++round) {
-      output_.progress(fmt::format("{}: round {} of {}", shader.technique, round + 1, verb_.rounds));
+      output_.progress(fmt::format("{}: round {} of {}", shader.label(), round + 1, verb_.rounds));
       for (Way& way : all) draw(way, shader);
       std::reverse(all.begin(), all.end());
     }
@@ -148,6 +151,7 @@ class BenchRun {
 
   void report(const Shading& shader, const std::vector<Way>& all) {
     const Way* llvmpipe = counted_llvmpipe(all);
+    const Json light = shader.light.empty() ? Json(nullptr) : Json(shader.light);
     for (const Way& way : all) {
       const std::string isa = way.renderer == "cpu" ? isa_name(*way.cpu.isa) : "";
       const std::string renderer = way.depth_prepass ? "egl, depth first" : way.renderer;
@@ -155,6 +159,7 @@ class BenchRun {
       if (!way.failure.empty()) {
         failures_ += fmt::format("failed {} on {}: {}\n", shader.technique, renderer, way.failure);
         rows_.push_back({{"technique", shader.technique},
+                         {"light", light},
                          {"map", nullptr},
                          {"renderer", way.renderer},
                          {"depth_prepass", way.depth_prepass},
@@ -164,6 +169,7 @@ class BenchRun {
       const Quartiles ms = quartiles(way.milliseconds);
       const double ns_per_pixel = way.shaded_pixels == 0 ? 0 : ms.median * 1e6 / double(way.shaded_pixels);
       Json row{{"technique", shader.technique},
+               {"light", light},
                {"map", nullptr},
                {"renderer", way.renderer},
                {"isa", isa.empty() ? Json(nullptr) : Json(isa)},
@@ -185,9 +191,9 @@ class BenchRun {
         ratio_text = fmt::format("{:.2f}", ratio);
       }
       rows_.push_back(std::move(row));
-      table_.row({shader.technique, renderer, isa, attributes, fmt::format("{:.2f}", ms.median),
-                  fmt::format("{:.2f}", ms.q1), fmt::format("{:.2f}", ms.q3), fmt::format("{:.2f}", ns_per_pixel),
-                  ratio_text});
+      table_.row({shader.technique, shader.light.empty() ? "-" : shader.light, renderer, isa, attributes,
+                  fmt::format("{:.2f}", ms.median), fmt::format("{:.2f}", ms.q1), fmt::format("{:.2f}", ms.q3),
+                  fmt::format("{:.2f}", ns_per_pixel), ratio_text});
     }
   }
 

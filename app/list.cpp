@@ -35,7 +35,9 @@ Listing list_techniques(bool only_bases) {
   for (const TechniqueInfo& technique : techniques()) {
     if (only_bases && !technique.is_basis) continue;
     const std::string name(technique.name), source(technique.source);
-    const std::string domain = technique.domain == Domain::hemisphere ? "hemisphere" : "sphere";
+    const std::string domain = technique.domain == Domain::hemisphere ? "hemisphere"
+                               : technique.domain == Domain::sphere   ? "sphere"
+                                                                      : "either";
     if (technique.is_basis) {
       listing.table.row({name, std::to_string(technique.count), domain, technique.linear ? "yes" : "no", source});
       listing.json.push_back({{"name", name},

@@ -16,11 +16,13 @@ namespace {
 constexpr std::array<const char*, 3> kIsaNames{"baseline", "avx2", "avx512"};
 constexpr std::array<const char*, 5> kNumberNames{"lanes4", "lanes8", "lanes16", "scalar", "float64"};
 constexpr std::array<const char*, 2> kAttributeModeNames{"exact", "native"};
+constexpr std::array<const char*, 5> kLightNames{"auto", "lightmap", "vertex", "volume", "all"};
 constexpr std::array<const char*, 3> kTonemapNames{"none", "reinhard", "aces"};
 
 constexpr std::uint32_t kLargestFrame = 16384;
 constexpr std::uint32_t kLargestLightmap = 4096;
 constexpr std::uint32_t kMostRays = 65536;
+constexpr int kMostProbes = 256;
 constexpr int kMostThreads = 1024;
 
 // Index of `value` in `names`; UserError with the nearest ones where there is none.
@@ -60,6 +62,22 @@ void parse_size(const std::string& text, std::uint32_t& width, std::uint32_t& he
       height > kLargestFrame)
     throw UserError(
         fmt::format("--size {}: must be WIDTHxHEIGHT, each from 1 to {}, as 1280x800", text, kLargestFrame));
+}
+
+glm::ivec3 parse_volume(const std::string& text) {
+  glm::ivec3 size(0);
+  std::string_view rest(text);
+  bool good = true;
+  for (int axis = 0; axis < 3 && good; ++axis) {
+    const std::size_t cross = axis < 2 ? rest.find('x') : rest.size();
+    good = cross != std::string_view::npos && parse_whole(rest.substr(0, cross), size[axis]) && size[axis] >= 1 &&
+           size[axis] <= kMostProbes;
+    if (good) rest.remove_prefix(std::min(cross + 1, rest.size()));
+  }
+  if (!good)
+    throw UserError(
+        fmt::format("--volume {}: must be NXxNYxNZ probes, each from 1 to {}, as 16x8x16", text, kMostProbes));
+  return size;
 }
 
 Camera parse_camera(const std::string& text) {
@@ -136,6 +154,12 @@ void add_subject_options(CLI::App& command, SubjectOptions& options) {
              given("--rays", [&](const std::string& text) {
                options.rays = parse_between<std::uint32_t>("--rays", text, 1, kMostRays);
              }));
+  add_parsed(command, "--volume", "NXxNYxNZ", "probes of the irradiance volume (default: 16x8x16)",
+             given("--volume", [&](const std::string& text) { options.volume = parse_volume(text); }));
+  add_parsed(command, "--probe-rays", "N", "rays per probe (default: 512)",
+             given("--probe-rays", [&](const std::string& text) {
+               options.probe_rays = parse_between<std::uint32_t>("--probe-rays", text, 1, kMostRays);
+             }));
   add_parsed(command, "--albedo", "on|off", "materials' colours (default: on)",
              given("--albedo", [&](const std::string& text) { options.albedo = parse_switch("--albedo", text); }));
   add_parsed(
@@ -150,8 +174,15 @@ void add_technique_option(CLI::App& command, ShadingOptions& options, const std:
       ->type_name("T,...");
 }
 
+void add_light_option(CLI::App& command, ShadingOptions& options) {
+  add_parsed(command, "--light", "auto|lightmap|vertex|volume|all",
+             "where techniques read their light from; all: from each that they can (default: auto)",
+             [&](const std::string& text) { options.light = LightSource(index_of(kLightNames, "light", text)); });
+}
+
 void add_shading_options(CLI::App& command, ShadingOptions& options, const std::string& default_techniques) {
   add_technique_option(command, options, default_techniques);
+  add_light_option(command, options);
   command.add_option("--shader", options.shader, "draw with this fragment shader instead of a technique")
       ->type_name("MY.frag");
 }

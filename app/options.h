@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
+#include <glm/glm.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,6 +39,10 @@ struct CommonOptions {
   bool quiet = false;
 };
 
+// Where shaders read their light from. automatic: lightmaps, or vertices where there are none, and volumes for
+// techniques that read nothing else; all: each technique from everything that it can be read from.
+enum class LightSource { automatic, lightmap, vertex, volume, all };
+
 // What is drawn: all that goes into a bundle.
 struct SubjectOptions {
   std::string scene = "courtyard";  // built-in name, model or bundle file
@@ -48,6 +53,8 @@ struct SubjectOptions {
   std::optional<Camera> camera;  // eye, target and field of view of the user's; the rest is the scene's
   bool albedo = true, normal_map = true;
   std::uint32_t lightmap_size = 512, rays = 256;
+  glm::ivec3 volume{16, 8, 16};  // probes
+  std::uint32_t probe_rays = 512;
   std::vector<std::string> given;  // names of those options that were set: a bundle file admits none
 };
 
@@ -55,6 +62,7 @@ struct SubjectOptions {
 struct ShadingOptions {
   std::vector<std::string> techniques;  // "all" or names
   std::string shader;                   // a user's fragment shader, or empty
+  LightSource light = LightSource::automatic;
 };
 
 // How the CPU draws.
@@ -67,7 +75,8 @@ struct CpuOptions {
 void add_common_options(CLI::App& command, CommonOptions& options);
 void add_subject_options(CLI::App& command, SubjectOptions& options);
 void add_technique_option(CLI::App& command, ShadingOptions& options, const std::string& default_techniques);
-// --technique and --shader.
+void add_light_option(CLI::App& command, ShadingOptions& options);
+// --technique, --light and --shader.
 void add_shading_options(CLI::App& command, ShadingOptions& options, const std::string& default_techniques);
 void add_attribute_option(CLI::App& command, AttributeMode& attributes);
 // --gl-fma, and --no-host-fma for short.

@@ -41,7 +41,7 @@ void Provenance::add(const Subject& subject) {
   json_["size"] = {subject.bundle.width, subject.bundle.height};
 }
 
-void Provenance::add(const Shading& shading) { json_["shaders"][shading.technique] = source_hash(shading.source); }
+void Provenance::add(const Shading& shading) { json_["shaders"][shading.label()] = source_hash(shading.source); }
 
 void Provenance::add(const std::string& backend, const Frame& frame) {
   Json& entry = json_["backends"][backend];

@@ -32,6 +32,8 @@ struct RenderVerb {
           "softpipe draws no picture of its own: it shades what the CPU covered (twinshade compare --on cpu,softpipe)");
     if (wants_all(shading) || (shading.shader.empty() && shading.techniques.size() != 1))
       throw UserError("--technique: render draws one; name one technique");
+    if (shading.light == LightSource::all)
+      throw UserError("--light all: render draws one; name lightmap, vertex or volume");
     if (!file.empty()) {
       require_picture_ending(file);
       require_writable_file(file);
@@ -60,6 +62,7 @@ struct RenderVerb {
     for (const auto& [stage, ms] : frame.milliseconds) milliseconds[stage] = ms;
     output.json({{"provenance", provenance.json()},
                  {"technique", shader.technique},
+                 {"light", shader.light.empty() ? Json(nullptr) : Json(shader.light)},
                  {"backend", backend},
                  {"attributes", attribute_mode_name(attributes)},
                  {"file", file.empty() ? Json(nullptr) : Json(file)},

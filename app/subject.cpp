@@ -16,7 +16,8 @@
 namespace twinshade {
 namespace {
 
-constexpr std::string_view kCoefficients = "coefficients_";
+constexpr CoefficientStorage kStorages[] = {CoefficientStorage::lightmap, CoefficientStorage::vertex,
+                                            CoefficientStorage::volume};
 
 bool is_bundle_file(const std::string& path) {
   std::error_code code;
@@ -27,26 +28,80 @@ bool is_bundle_file(const std::string& path) {
   return looks_like_bundle({first, std::size_t(in.gcount())});
 }
 
-// The names X of all "coefficients_X" in a shader: what it wants baked.
-std::vector<const TechniqueInfo*> techniques_whose_coefficients_are_read(const std::string& text) {
-  std::vector<const TechniqueInfo*> read;
+bool names(const std::string& text, const std::string& name) {
   const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
+    const std::size_t end = at + name.size();
+    if ((at == 0 || !is_word(text[at - 1])) && (end == text.size() || !is_word(text[end]))) return true;
+  }
+  return false;
+}
+
+// Where a scene's light can be kept. Nothing is gathered for lightmaps of procedural light.
+bool can_keep(const Scene& scene, CoefficientStorage storage) {
+  return storage != CoefficientStorage::lightmap || (!scene.lightmap_uvs.empty() && !scene.procedural_coefficients);
+}
+
+// All "coefficients_X" and "volume_X" in a user's shader: what it wants baked.
+std::vector<LitTechnique> coefficients_read(const std::string& text, const Scene& scene, LightSource light) {
+  const bool per_vertex = light == LightSource::vertex || !can_keep(scene, CoefficientStorage::lightmap);
+  std::vector<LitTechnique> read;
   for (const TechniqueInfo& technique : techniques()) {
-    const std::string name = std::string(kCoefficients) + std::string(technique.name);
-    for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
-      const std::size_t end = at + name.size();
-      if (end < text.size() && is_word(text[end])) continue;
-      read.push_back(&technique);
-      break;
-    }
+    const std::string name(technique.name);
+    if (names(text, "coefficients_" + name))
+      read.push_back({&technique, per_vertex ? CoefficientStorage::vertex : CoefficientStorage::lightmap});
+    if (names(text, "volume_" + name)) read.push_back({&technique, CoefficientStorage::volume});
   }
   return read;
 }
 
-// make_bundle leaves a note. A bundle without one has no coefficients, whose storage then does not matter.
-CoefficientStorage storage_of(const Bundle& bundle) {
-  const std::string* note = bundle.find_note("coefficients");
-  return note && *note == "vertex" ? CoefficientStorage::vertex : CoefficientStorage::lightmap;
+// Whether a bundle has what a technique reads from a storage. A technique that is no basis of its own may read
+// anything.
+bool has_coefficients(const Bundle& bundle, const TechniqueInfo& technique, CoefficientStorage storage) {
+  const std::string name(technique.name);
+  if (!technique.is_basis) {
+    const std::string* note = bundle.find_note("coefficients");
+    return !note || note->empty() || names(*note, std::string(storage_name(storage)));
+  }
+  switch (storage) {
+    case CoefficientStorage::lightmap:
+      return bundle.find_texture("coefficients_" + name) != nullptr;
+    case CoefficientStorage::vertex:
+      return bundle.find_attribute("coefficients_" + name + "[0]") != nullptr;
+    case CoefficientStorage::volume:
+      return bundle.find_texture("volume_" + name) != nullptr;
+  }
+  return false;
+}
+
+// The storages to draw each technique from. has(technique, storage): whether it is there; missing(storage): why not.
+template <class Has, class Missing>
+void choose(Subject& subject, const std::vector<const TechniqueInfo*>& chosen, const ShadingOptions& shading,
+            const Has& has, const Missing& missing) {
+  for (const TechniqueInfo* technique : chosen) {
+    std::string reason;
+    const std::size_t before = subject.drawn.size();
+    for (const CoefficientStorage storage : kStorages) {
+      const bool asked = shading.light == LightSource::automatic || shading.light == LightSource::all ||
+                         int(shading.light) == 1 + int(storage);
+      if (!asked) continue;
+      if (!can_read(*technique, storage)) {
+        if (reason.empty())
+          reason =
+              fmt::format("it does not read its light from {}", storage == CoefficientStorage::lightmap ? "lightmaps"
+                                                                : storage == CoefficientStorage::vertex ? "vertices"
+                                                                                                        : "a volume");
+      } else if (!has(*technique, storage)) {
+        reason = missing(storage);
+      } else {
+        subject.drawn.push_back({technique, storage});
+        if (shading.light == LightSource::automatic) break;
+      }
+    }
+    if (subject.drawn.size() > before) continue;
+    if (!wants_all(shading)) throw UserError(fmt::format("technique {}: {}", technique->name, reason));
+    subject.skipped.emplace_back(technique->name, reason);
+  }
 }
 
 Bundle bundle_from_file(const SubjectOptions& options) {
@@ -56,19 +111,34 @@ Bundle bundle_from_file(const SubjectOptions& options) {
   return read_bundle(options.scene);
 }
 
-Bundle bundle_from_scene(const SubjectOptions& options, const std::vector<const TechniqueInfo*>& baked,
-                         const CommonOptions& common, const Output& output) {
-  const Scene scene = load_scene(options.scene);
-  for (const std::string& note : scene.notes) output.note(options.scene + ": " + note);
+// Whether the shader of a technique reads coefficients at all.
+bool reads_coefficients(const LitTechnique& lit) {
+  return lit.technique->is_basis ||
+         technique_source(*lit.technique, lit.storage).text.find("coefficients_") != std::string::npos;
+}
+
+Bundle bundle_from_scene(const SubjectOptions& options, const Scene& scene, const std::vector<LitTechnique>& baked,
+                         const CommonOptions& common) {
   Environment environment = load_environment(options.environment, options.clamp_radiance);
   if (options.rotation_degrees != 0) environment = rotate_environment(environment, options.rotation_degrees);
 
   BakeOptions bake;
   bake.lightmap_size = options.lightmap_size;
   bake.rays = options.rays;
+  bake.volume = options.volume;
+  bake.probe_rays = options.probe_rays;
   bake.seed = common.seed;
   bake.show_progress = !common.quiet;
-  const LightBake light = bake_light(scene, environment, bake);
+  std::vector<LightBake> lights;
+  for (const CoefficientStorage storage : kStorages) {
+    const bool needed = std::any_of(baked.begin(), baked.end(), [&](const LitTechnique& lit) {
+      return lit.storage == storage && reads_coefficients(lit);
+    });
+    if (!needed) continue;
+    bake.per_vertex = storage == CoefficientStorage::vertex;
+    lights.push_back(storage == CoefficientStorage::volume ? bake_volume(scene, environment, bake)
+                                                           : bake_light(scene, environment, bake));
+  }
 
   FrameOptions frame;
   frame.width = options.width;
@@ -81,7 +151,7 @@ Bundle bundle_from_scene(const SubjectOptions& options, const std::vector<const 
   }
   frame.albedo = options.albedo;
   frame.normal_map = options.normal_map;
-  return make_bundle(scene, light, baked, frame);
+  return make_bundle(scene, lights, baked, frame);
 }
 
 }  // namespace
@@ -109,24 +179,44 @@ std::vector<const TechniqueInfo*> chosen_techniques(const ShadingOptions& option
 Subject load_subject(const SubjectOptions& options, const ShadingOptions& shading, const CommonOptions& common,
                      const Output& output) {
   // Names and shaders are checked before anything that takes long.
-  const std::vector<const TechniqueInfo*> baked =
-      shading.shader.empty() ? chosen_techniques(shading)
-                             : techniques_whose_coefficients_are_read(load_shader(shading.shader).text);
+  const bool own_shader = !shading.shader.empty();
+  const std::string text = own_shader ? load_shader(shading.shader).text : "";
+  const std::vector<const TechniqueInfo*> chosen =
+      own_shader ? std::vector<const TechniqueInfo*>() : chosen_techniques(shading);
   Subject subject;
-  subject.bundle =
-      is_bundle_file(options.scene) ? bundle_from_file(options) : bundle_from_scene(options, baked, common, output);
+  if (is_bundle_file(options.scene)) {
+    subject.bundle = bundle_from_file(options);
+    choose(
+        subject, chosen, shading,
+        [&](const TechniqueInfo& technique, CoefficientStorage storage) {
+          return has_coefficients(subject.bundle, technique, storage);
+        },
+        [&](CoefficientStorage storage) {
+          return fmt::format("{} has no coefficients for it ({}); bake it again with it", options.scene,
+                             storage_name(storage));
+        });
+  } else {
+    const Scene scene = load_scene(options.scene);
+    for (const std::string& note : scene.notes) output.note(options.scene + ": " + note);
+    choose(
+        subject, chosen, shading,
+        [&](const TechniqueInfo&, CoefficientStorage storage) { return can_keep(scene, storage); },
+        [&](CoefficientStorage) { return options.scene + " has no lightmap; use --light vertex"; });
+    subject.bundle = bundle_from_scene(
+        options, scene, own_shader ? coefficients_read(text, scene, shading.light) : subject.drawn, common);
+  }
   subject.hash = bundle_hash(subject.bundle);
-  subject.storage = storage_of(subject.bundle);
   return subject;
 }
 
 std::vector<Shading> load_shadings(const ShadingOptions& options, const Subject& subject) {
   std::vector<Shading> shadings;
   if (!options.shader.empty()) {
-    shadings.push_back({options.shader, load_shader(options.shader)});
+    shadings.push_back({options.shader, "", load_shader(options.shader)});
   } else {
-    for (const TechniqueInfo* technique : chosen_techniques(options))
-      shadings.push_back({std::string(technique->name), technique_source(*technique, subject.storage)});
+    for (const LitTechnique& lit : subject.drawn)
+      shadings.push_back({std::string(lit.technique->name), std::string(storage_name(lit.storage)),
+                          technique_source(*lit.technique, lit.storage)});
   }
   return shadings;
 }

@@ -2,24 +2,31 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/options.h"
 #include "app/output.h"
 #include "bundle/bundle.h"
+#include "lighting/bake.h"
 #include "lighting/registry.h"
 
 namespace twinshade {
 
 struct Subject {
   Bundle bundle;
-  std::string hash;  // of the bundle
-  CoefficientStorage storage = CoefficientStorage::lightmap;
+  std::string hash;                 // of the bundle
+  std::vector<LitTechnique> drawn;  // what to draw with, in registry order; none for a user's shader
+  // With "all": techniques that cannot be lit as asked, and why.
+  std::vector<std::pair<std::string, std::string>> skipped;
 };
 
 // A fragment shader to draw with.
 struct Shading {
   std::string technique;  // as on the command line; a user's shader: its path
+  std::string light;      // where it reads its coefficients, as on the command line; a user's shader: empty
+
+  std::string label() const { return light.empty() ? technique : technique + " (" + light + ")"; }
   ShaderSource source;
 };
 
@@ -29,7 +36,9 @@ bool wants_all(const ShadingOptions& options);
 std::vector<const TechniqueInfo*> chosen_techniques(const ShadingOptions& options);
 
 // Loads, lights and bakes, or reads the bundle; says aloud what the loader had to say. The bundle carries the
-// coefficients of the chosen techniques, or, for a user's shader, of those whose coefficients it names.
+// coefficients of the chosen techniques as --light says, or, for a user's shader, those that it names
+// (coefficients_BASIS, volume_BASIS); nothing else is baked. UserError where a technique that was named cannot be lit
+// so.
 Subject load_subject(const SubjectOptions& options, const ShadingOptions& shading, const CommonOptions& common,
                      const Output& output);
 

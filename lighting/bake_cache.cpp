@@ -1,5 +1,5 @@
-// Layout: magic, storage, width, height (u32 each), a bit for each cell (1: it has coefficients), the coefficients of
-// those cells as f32, SHA-256 of all before it as 64 hex digits. That hash is also the bake's.
+// Layout: Header, a bit for each cell (1: it has coefficients), the coefficients of those cells as f32, SHA-256 of all
+// before it as 64 hex digits. That hash is also the bake's.
 #include "lighting/bake_cache.h"
 
 #include <bit>
@@ -17,12 +17,18 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-constexpr std::uint32_t kMagic = 0x314b4254;  // "TBK1"
-constexpr std::size_t kCellBytes = kRadianceCount * 3 * sizeof(float);
-constexpr std::size_t kHeaderBytes = 16;
+constexpr std::uint32_t kMagic = 0x324b4254;  // "TBK2"
 
-bool is_zero(const char* cell) {
-  for (std::size_t i = 0; i < kCellBytes; ++i)
+struct Header {
+  std::uint32_t magic, storage, width, height, radiance_count;
+  std::int32_t volume[3];
+  float origin[3], scale[3];
+};
+constexpr std::size_t kHeaderBytes = sizeof(Header);
+static_assert(kHeaderBytes == 14 * 4);
+
+bool is_zero(const char* cell, std::size_t bytes) {
+  for (std::size_t i = 0; i < bytes; ++i)
     if (cell[i] != 0) return false;
   return true;
 }
@@ -31,15 +37,22 @@ bool is_zero(const char* cell) {
 
 std::string serialize_bake(const LightBake& bake) {
   const std::size_t cells = std::size_t(bake.width) * bake.height;
-  const std::uint32_t header[] = {kMagic, std::uint32_t(bake.storage), bake.width, bake.height};
-  std::string bytes(reinterpret_cast<const char*>(header), kHeaderBytes);
+  const std::size_t cell_bytes = std::size_t(bake.radiance_count) * 3 * sizeof(float);
+  Header header{
+      kMagic, std::uint32_t(bake.storage), bake.width, bake.height, std::uint32_t(bake.radiance_count), {}, {}, {}};
+  for (int axis = 0; axis < 3; ++axis) {
+    header.volume[axis] = bake.volume[axis];
+    header.origin[axis] = bake.volume_origin[axis];
+    header.scale[axis] = bake.volume_scale[axis];
+  }
+  std::string bytes(reinterpret_cast<const char*>(&header), kHeaderBytes);
   bytes.resize(kHeaderBytes + (cells + 7) / 8, 0);
   const char* values = reinterpret_cast<const char*>(bake.sh.data());
-  bytes.reserve(bytes.size() + cells * kCellBytes + kBakeHashLength);
+  bytes.reserve(bytes.size() + cells * cell_bytes + kBakeHashLength);
   for (std::size_t cell = 0; cell < cells; ++cell) {
-    if (is_zero(values + cell * kCellBytes)) continue;
+    if (is_zero(values + cell * cell_bytes, cell_bytes)) continue;
     bytes[kHeaderBytes + cell / 8] = char(bytes[kHeaderBytes + cell / 8] | (1 << cell % 8));
-    bytes.append(values + cell * kCellBytes, kCellBytes);
+    bytes.append(values + cell * cell_bytes, cell_bytes);
   }
   return bytes + sha256_hex(bytes);
 }
@@ -50,11 +63,20 @@ std::optional<LightBake> deserialize_bake(std::string_view bytes) {
   LightBake bake;
   bake.hash = bytes.substr(content.size());
   if (sha256_hex(content) != bake.hash) return std::nullopt;
-  std::uint32_t header[4];
-  std::memcpy(header, content.data(), kHeaderBytes);
-  if (header[0] != kMagic || header[1] > 1) return std::nullopt;
-  bake.storage = CoefficientStorage(header[1]);
-  bake.width = header[2], bake.height = header[3];
+  Header header;
+  std::memcpy(&header, content.data(), kHeaderBytes);
+  if (header.magic != kMagic || header.storage > std::uint32_t(CoefficientStorage::volume) ||
+      header.radiance_count > std::uint32_t(kMostRadianceCount))
+    return std::nullopt;
+  bake.storage = CoefficientStorage(header.storage);
+  bake.width = header.width, bake.height = header.height;
+  bake.radiance_count = int(header.radiance_count);
+  for (int axis = 0; axis < 3; ++axis) {
+    bake.volume[axis] = header.volume[axis];
+    bake.volume_origin[axis] = header.origin[axis];
+    bake.volume_scale[axis] = header.scale[axis];
+  }
+  const std::size_t cell_bytes = std::size_t(bake.radiance_count) * 3 * sizeof(float);
 
   const std::size_t cells = std::size_t(bake.width) * bake.height, mask_bytes = (cells + 7) / 8;
   if (content.size() - kHeaderBytes < mask_bytes) return std::nullopt;
@@ -62,13 +84,13 @@ std::optional<LightBake> deserialize_bake(std::string_view bytes) {
   const auto stored = [&](std::size_t cell) { return (mask[cell / 8] >> cell % 8 & 1) != 0; };
   std::size_t count = 0;
   for (std::size_t cell = 0; cell < cells; ++cell) count += stored(cell);
-  if (content.size() != kHeaderBytes + mask_bytes + count * kCellBytes) return std::nullopt;
-  bake.sh.assign(cells * kRadianceCount * 3, 0.0f);
+  if (content.size() != kHeaderBytes + mask_bytes + count * cell_bytes) return std::nullopt;
+  bake.sh.assign(cells * bake.radiance_count * 3, 0.0f);
   const char* from = mask + mask_bytes;
   for (std::size_t cell = 0; cell < cells; ++cell) {
     if (!stored(cell)) continue;
-    std::memcpy(bake.sh.data() + cell * kRadianceCount * 3, from, kCellBytes);
-    from += kCellBytes;
+    std::memcpy(bake.sh.data() + cell * bake.radiance_count * 3, from, cell_bytes);
+    from += cell_bytes;
   }
   return bake;
 }

@@ -5,14 +5,23 @@
 #include <algorithm>
 
 namespace twinshade {
+namespace {
+
+std::vector<std::uint8_t> cells_that_receive(const Receivers& receivers) {
+  std::vector<std::uint8_t> receives;
+  for (const std::uint32_t receiver : receivers.receiver_of_cell) receives.push_back(receiver != kNoReceiver);
+  return receives;
+}
+
+}  // namespace
 
 template <class Neighbours>
-FillPlan FillPlan::grow(const std::vector<std::uint8_t>& known, const Receivers& receivers, int gutter,
+FillPlan FillPlan::grow(const std::vector<std::uint8_t>& known, const std::vector<std::uint8_t>& receives, int gutter,
                         const Neighbours& neighbours) {
   FillPlan plan;
   std::vector<std::uint8_t> state(known);  // 0 empty, 1 filled, 2 waiting for this round
   std::vector<std::uint32_t> frontier, next;
-  const auto is_receiver = [&](std::uint32_t cell) { return receivers.receiver_of_cell[cell] != kNoReceiver; };
+  const auto is_receiver = [&](std::uint32_t cell) { return receives[cell] != 0; };
 
   // Fills cells beside the frontier and makes them the next frontier
   const auto round = [&](const auto& wanted) {
@@ -40,17 +49,29 @@ FillPlan FillPlan::grow(const std::vector<std::uint8_t>& known, const Receivers&
   while (!frontier.empty()) round(is_receiver);
 
   frontier.clear();
-  for (const Receiver& receiver : receivers.list) {
-    state[receiver.cell] = 1;
-    frontier.push_back(receiver.cell);
+  for (std::uint32_t cell = 0; cell < receives.size(); ++cell) {
+    if (!receives[cell]) continue;
+    state[cell] = 1;
+    frontier.push_back(cell);
   }
   for (int step = 0; step < gutter; ++step) round([&](std::uint32_t cell) { return !is_receiver(cell); });
   return plan;
 }
 
+FillPlan FillPlan::grid(const std::vector<std::uint8_t>& known, const glm::ivec3& size) {
+  const std::uint32_t steps[] = {1, std::uint32_t(size.x), std::uint32_t(size.x) * std::uint32_t(size.y)};
+  return grow(known, std::vector<std::uint8_t>(known.size(), 1), 0, [&](std::uint32_t cell, const auto& visit) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::uint32_t place = cell / steps[axis] % std::uint32_t(size[axis]);
+      if (place > 0) visit(cell - steps[axis]);
+      if (place + 1 < std::uint32_t(size[axis])) visit(cell + steps[axis]);
+    }
+  });
+}
+
 FillPlan FillPlan::lightmap(const std::vector<std::uint8_t>& known, const Receivers& receivers, int gutter) {
   const std::int64_t width = receivers.width, height = receivers.height;
-  return grow(known, receivers, gutter, [=](std::uint32_t cell, const auto& visit) {
+  return grow(known, cells_that_receive(receivers), gutter, [=](std::uint32_t cell, const auto& visit) {
     const std::int64_t x = cell % width, y = cell / width;
     for (std::int64_t j = std::max<std::int64_t>(y - 1, 0); j <= std::min(y + 1, height - 1); ++j)
       for (std::int64_t i = std::max<std::int64_t>(x - 1, 0); i <= std::min(x + 1, width - 1); ++i)
@@ -70,7 +91,7 @@ FillPlan FillPlan::vertices(const std::vector<std::uint8_t>& known, const Receiv
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
   }
-  return grow(known, receivers, 0, [&](std::uint32_t cell, const auto& visit) {
+  return grow(known, cells_that_receive(receivers), 0, [&](std::uint32_t cell, const auto& visit) {
     for (const std::uint32_t other : adjacent[cell])
       if (other != cell) visit(other);
   });

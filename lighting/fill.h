@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <span>
 #include <vector>
 
@@ -16,6 +17,8 @@ class FillPlan {
   // ones however far away they are, as long as receivers lie between; where none is in reach a receiver keeps what it
   // has. Then cells that are no receivers are filled up to `gutter` texels away.
   static FillPlan lightmap(const std::vector<std::uint8_t>& known, const Receivers& receivers, int gutter);
+  // Probes of a grid, x fastest, then y, then z: all are receivers, neighbours share a face.
+  static FillPlan grid(const std::vector<std::uint8_t>& known, const glm::ivec3& size);
   // Along the edges of triangles.
   static FillPlan vertices(const std::vector<std::uint8_t>& known, const Receivers& receivers, const Scene& scene);
 
@@ -31,7 +34,7 @@ class FillPlan {
   std::vector<std::uint32_t> sources_;
 
   template <class Neighbours>
-  static FillPlan grow(const std::vector<std::uint8_t>& known, const Receivers& receivers, int gutter,
+  static FillPlan grow(const std::vector<std::uint8_t>& known, const std::vector<std::uint8_t>& receives, int gutter,
                        const Neighbours& neighbours);
 };
 

@@ -166,7 +166,8 @@ class AmbientHighlightFit final : public SampleFit {
 
   void solve(const double* samples, const double* radiance, double* coefficients) const override {
     // Red carries what the ambient colour does, green what the highlight does
-    const glm::dvec3 axis = luminance_axis(radiance);
+    glm::dvec3 axis = luminance_axis(radiance);
+    if (axis == glm::dvec3(0)) axis.z = 1;
     const std::vector<double> values = module_.run(
         directions_.size(), [&](std::size_t row) { return directions_[row]; },
         [&](std::size_t, int i, int c) { return i == 2   ? axis[c]
@@ -227,7 +228,7 @@ glm::dvec3 luminance_axis(const double* sh) {
     for (int k = 0; k < 3; ++k) axis[k] += luminance * values[k * 4 + j];
   }
   const double length = std::sqrt(glm::dot(axis, axis));
-  return length > 0 && std::isfinite(length) ? axis / length : glm::dvec3(0, 0, 1);
+  return length > 0 && std::isfinite(length) ? axis / length : glm::dvec3(0);
 }
 
 void apply_window(double* sh, const BandFactors& factors) {

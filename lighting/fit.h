@@ -41,8 +41,7 @@ std::unique_ptr<const SampleFit> make_ambient_highlight_fit(const TechniqueInfo&
                                                             std::span<const glm::dvec3> directions,
                                                             std::span<const double> weights);
 
-// Unit direction of the luminance (Rec. 709) of a signal in real SH, sh[j * 3 + c]: its l = 1. (0, 0, 1) where that is
-// 0.
+// Unit direction of the luminance (Rec. 709) of a signal in real SH, sh[j * 3 + c]: its l = 1. Zero where that is 0.
 glm::dvec3 luminance_axis(const double* sh);
 
 // Multiplies band l of sh[j * 3 + c], l <= 2.

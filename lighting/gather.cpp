@@ -63,15 +63,22 @@ struct SeenBright {
   glm::dvec3 radiance;
 };
 
+// As a matt surface does.
+glm::vec3 reflected_radiance(const Receiver& surface, const std::vector<float>& irradiance) {
+  const float* e = irradiance.data() + std::size_t(surface.cell) * 3;
+  return glm::vec3(e[0], e[1], e[2]) * surface.albedo * float(1 / portable::kPi);
+}
+
 class Gatherer {
  public:
-  Gatherer(const Scene& scene, const Environment& environment, const BakeOptions& options)
+  Gatherer(const Scene& scene, const RayScene& rays, const EnvironmentSampler& light, const BakeOptions& options)
       : scene_(scene),
         options_(options),
-        rays_(scene),
-        receivers_(scene.lightmap_uvs.empty() ? vertex_receivers(scene, rays_)
-                                              : lightmap_receivers(scene, rays_, options.lightmap_size)),
-        light_(environment),
+        rays_(rays),
+        receivers_(scene.lightmap_uvs.empty() || options.per_vertex
+                       ? vertex_receivers(scene, rays_)
+                       : lightmap_receivers(scene, rays_, options.lightmap_size)),
+        light_(light),
         sets_(options.rays, options.seed),
         bright_samples_(light_.has_bright() ? std::max(16u, options.rays / 8) : 0) {
     out_.storage = receivers_.storage;
@@ -86,23 +93,11 @@ class Gatherer {
   }
 
   GatheredLight run() {
-    const std::size_t count = receivers_.list.size(), chunks = (count + kChunk - 1) / kChunk;
-    {
-      Progress progress("bake: direct light", "rays", count * (options_.rays + bright_samples_),
-                        options_.show_progress);
-      parallel_for(chunks, [&](std::size_t chunk, int) {
-        const std::size_t first = chunk * kChunk, last = std::min(count, first + kChunk);
-        gather_direct(first, last);
-        progress.add((last - first) * (options_.rays + bright_samples_));
-      });
-    }
-    out_.rays = std::uint64_t(count) * (options_.rays + bright_samples_);
-
-    const FillPlan fill = plan_fill();
-    fill.apply(out_.irradiance, 3);
+    const FillPlan fill = direct();
     if (remembered_ > 0) {
+      const std::size_t count = receivers_.list.size();
       Progress progress("bake: bounce", "rays", count * remembered_, options_.show_progress);
-      parallel_for(chunks, [&](std::size_t chunk, int) {
+      parallel_for((count + kChunk - 1) / kChunk, [&](std::size_t chunk, int) {
         const std::size_t first = chunk * kChunk, last = std::min(count, first + kChunk);
         for (std::size_t i = first; i < last; ++i) gather_bounce(i);
         progress.add((last - first) * remembered_);
@@ -112,7 +107,26 @@ class Gatherer {
     return std::move(out_);
   }
 
+  SurfaceLight run_direct() {
+    direct();
+    return {std::move(receivers_), std::move(out_.irradiance), out_.rays};
+  }
+
  private:
+  FillPlan direct() {
+    const std::size_t count = receivers_.list.size(), chunks = (count + kChunk - 1) / kChunk;
+    Progress progress("bake: direct light", "rays", count * (options_.rays + bright_samples_), options_.show_progress);
+    parallel_for(chunks, [&](std::size_t chunk, int) {
+      const std::size_t first = chunk * kChunk, last = std::min(count, first + kChunk);
+      gather_direct(first, last);
+      progress.add((last - first) * (options_.rays + bright_samples_));
+    });
+    out_.rays = std::uint64_t(count) * (options_.rays + bright_samples_);
+    FillPlan fill = plan_fill();
+    fill.apply(out_.irradiance, 3);
+    return fill;
+  }
+
   std::uint32_t set_of(std::size_t i) const {
     return std::uint32_t(random_bits(options_.seed, kChooseSet, receivers_.list[i].cell) % sets_.count());
   }
@@ -224,10 +238,8 @@ class Gatherer {
       if (source == kNoReceiver) continue;
       std::uint32_t first, last;
       const std::uint32_t ray = remembered_ray(i, slot, first, last);
-      const Receiver& surface = receivers_.list[source];
-      const float* e = out_.irradiance.data() + std::size_t(surface.cell) * 3;
-      const glm::vec3 radiance = glm::vec3(e[0], e[1], e[2]) * surface.albedo * float(1 / portable::kPi);
-      sum.add(weights + std::size_t(ray) * DirectionSets::kWeights, radiance);
+      sum.add(weights + std::size_t(ray) * DirectionSets::kWeights,
+              reflected_radiance(receivers_.list[source], out_.irradiance));
     }
     sum.flush();
     const double weight = 2 * portable::kPi / remembered_;
@@ -238,9 +250,9 @@ class Gatherer {
 
   const Scene& scene_;
   const BakeOptions& options_;
-  const RayScene rays_;
-  const Receivers receivers_;
-  const EnvironmentSampler light_;
+  const RayScene& rays_;
+  Receivers receivers_;
+  const EnvironmentSampler& light_;
   const DirectionSets sets_;
   const std::uint32_t bright_samples_;
   std::uint32_t remembered_ = 0;      // rays a receiver whose hit is kept
@@ -252,7 +264,21 @@ class Gatherer {
 }  // namespace
 
 GatheredLight gather_light(const Scene& scene, const Environment& environment, const BakeOptions& options) {
-  return Gatherer(scene, environment, options).run();
+  const RayScene rays(scene);
+  return Gatherer(scene, rays, EnvironmentSampler(environment), options).run();
+}
+
+SurfaceLight gather_surface_light(const Scene& scene, const RayScene& rays, const EnvironmentSampler& light,
+                                  const BakeOptions& options) {
+  BakeOptions direct = options;
+  direct.bounce = false;  // nothing is remembered
+  return Gatherer(scene, rays, light, direct).run_direct();
+}
+
+glm::vec3 SurfaceLight::reflected(const Scene& scene, std::uint32_t triangle, double b1, double b2,
+                                  double choice) const {
+  const std::uint32_t receiver = receivers.at(scene, triangle, b1, b2, choice);
+  return receiver == kNoReceiver ? glm::vec3(0) : reflected_radiance(receivers.list[receiver], irradiance);
 }
 
 }  // namespace twinshade

@@ -6,6 +6,9 @@
 #include <vector>
 
 #include "lighting/bake.h"
+#include "lighting/environment_sampler.h"
+#include "lighting/ray_scene.h"
+#include "lighting/receivers.h"
 
 namespace twinshade {
 
@@ -18,5 +21,18 @@ struct GatheredLight {
 };
 
 GatheredLight gather_light(const Scene& scene, const Environment& environment, const BakeOptions& options);
+
+// The first pass alone: what surfaces receive directly, for rays from elsewhere that meet them.
+struct SurfaceLight {
+  Receivers receivers;
+  std::vector<float> irradiance;  // as GatheredLight::irradiance
+  std::uint64_t rays = 0;
+
+  // Radiance towards anywhere above it that the surface at a point of a triangle reflects; choice: as Receivers::at.
+  glm::vec3 reflected(const Scene& scene, std::uint32_t triangle, double b1, double b2, double choice) const;
+};
+
+SurfaceLight gather_surface_light(const Scene& scene, const RayScene& rays, const EnvironmentSampler& light,
+                                  const BakeOptions& options);
 
 }  // namespace twinshade

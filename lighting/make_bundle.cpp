@@ -24,14 +24,18 @@ bool contains_word(const std::string& text, const std::string& word) {
   return false;
 }
 
-// The bases whose coefficients the techniques' shaders read.
-std::vector<const TechniqueInfo*> bases_in_use(const std::vector<const TechniqueInfo*>& wanted,
-                                               CoefficientStorage storage) {
+std::string coefficients_name(const TechniqueInfo& basis, CoefficientStorage storage) {
+  return (storage == CoefficientStorage::volume ? "volume_" : "coefficients_") + std::string(basis.name);
+}
+
+// The bases whose coefficients the techniques' shaders read from a storage.
+std::vector<const TechniqueInfo*> bases_in_use(const std::vector<LitTechnique>& wanted, CoefficientStorage storage) {
   std::vector<std::string> texts;
-  for (const TechniqueInfo* technique : wanted) texts.push_back(technique_source(*technique, storage).text);
+  for (const LitTechnique& lit : wanted)
+    if (lit.storage == storage) texts.push_back(technique_source(*lit.technique, storage).text);
   std::vector<const TechniqueInfo*> bases;
   for (const TechniqueInfo& basis : techniques()) {
-    const std::string name = "coefficients_" + std::string(basis.name);
+    const std::string name = coefficients_name(basis, storage);
     if (basis.is_basis &&
         std::any_of(texts.begin(), texts.end(), [&](const std::string& text) { return contains_word(text, name); }))
       bases.push_back(&basis);
@@ -41,14 +45,19 @@ std::vector<const TechniqueInfo*> bases_in_use(const std::vector<const Technique
 
 // Coefficient i of channel c of a cell at [(i * cells + cell) * stride + c].
 std::vector<float> coefficients(const LightBake& light, const TechniqueInfo& basis, std::size_t stride) {
-  const Projector projector(basis, kRadianceCount);
+  const std::size_t numbers = std::size_t(light.radiance_count) * 3;
+  const int taken = light.storage == CoefficientStorage::volume ? kMostRadianceCount : kRadianceCount;
+  const std::size_t stored = std::size_t(taken) * 3;
+  const Projector projector(basis, taken);
   const std::size_t cells = std::size_t(light.width) * light.height, count = std::size_t(basis.count);
   std::vector<float> values(count * cells * stride, 0.0f);
   constexpr std::size_t kBlock = 256;
   parallel_for((cells + kBlock - 1) / kBlock, [&](std::size_t block, int) {
     const std::size_t first = block * kBlock, length = std::min(kBlock, cells - first);
-    const float* from = light.sh.data() + first * kRadianceCount * 3;
-    const std::vector<double> radiance(from, from + length * kRadianceCount * 3);
+    const float* from = light.sh.data() + first * numbers;
+    std::vector<double> radiance(length * stored, 0.0);  // bands that were not baked are zero
+    for (std::size_t cell = 0; cell < length; ++cell)
+      std::copy(from + cell * numbers, from + (cell + 1) * numbers, radiance.begin() + std::ptrdiff_t(cell * stored));
     std::vector<double> projected(length * count * 3);
     projector.project(radiance.data(), projected.data(), length);
     for (std::size_t cell = 0; cell < length; ++cell)
@@ -61,12 +70,23 @@ std::vector<float> coefficients(const LightBake& light, const TechniqueInfo& bas
 
 void add_coefficient_texture(Bundle& bundle, const LightBake& light, const TechniqueInfo& basis) {
   Texture texture;
-  texture.name = "coefficients_" + std::string(basis.name);
+  texture.name = coefficients_name(basis, light.storage);
   texture.kind = TextureKind::two_d_array;
   texture.width = light.width, texture.height = light.height, texture.layers = std::uint32_t(basis.count);
   texture.texels = coefficients(light, basis, 4);
   for (std::size_t i = 3; i < texture.texels.size(); i += 4) texture.texels[i] = 1;
   bundle.textures.push_back(std::move(texture));
+}
+
+void add_volume_uniforms(Bundle& bundle, const LightBake& light) {
+  const auto vector = [&](const char* name, const glm::vec3& v) {
+    bundle.uniforms.push_back({name, Scalar::f32, 1, 3, 0, {v.x, v.y, v.z}});
+  };
+  vector("volume_origin", light.volume_origin);
+  vector("volume_scale", light.volume_scale);
+  Uniform size{"volume_size", Scalar::i32, 1, 3, 0, {}};
+  for (int axis = 0; axis < 3; ++axis) size.values.push_back(std::bit_cast<float>(std::int32_t(light.volume[axis])));
+  bundle.uniforms.push_back(std::move(size));
 }
 
 void add_coefficient_attributes(Bundle& bundle, const LightBake& light, const TechniqueInfo& basis) {
@@ -112,9 +132,31 @@ std::vector<float> clip_positions(const Scene& scene, const FrameOptions& option
   return clip;
 }
 
+// The coefficients of one storage and what its shaders read beside them.
+void add_light(Bundle& bundle, const LightBake& light, const std::vector<const TechniqueInfo*>& bases) {
+  if (light.storage == CoefficientStorage::volume) add_volume_uniforms(bundle, light);
+  for (const TechniqueInfo* basis : bases) {
+    if (light.storage == CoefficientStorage::vertex)
+      add_coefficient_attributes(bundle, light, *basis);
+    else
+      add_coefficient_texture(bundle, light, *basis);
+  }
+}
+
+// Light's notes, each once; under its storage's name where another light says otherwise.
+void add_notes(Bundle& bundle, const LightBake& light) {
+  for (const auto& [key, value] : light.notes) {
+    const std::string* before = bundle.find_note(key);
+    if (!before)
+      bundle.notes.emplace_back(key, value);
+    else if (*before != value)
+      bundle.notes.emplace_back(fmt::format("{}_{}", storage_name(light.storage), key), value);
+  }
+}
+
 }  // namespace
 
-Bundle make_bundle(const Scene& scene, const LightBake& light, const std::vector<const TechniqueInfo*>& wanted,
+Bundle make_bundle(const Scene& scene, std::span<const LightBake> lights, const std::vector<LitTechnique>& wanted,
                    const FrameOptions& options) {
   if (options.width < 1 || options.height < 1 || options.width > 16384 || options.height > 16384)
     throw UserError("frame size: " + std::to_string(options.width) + "x" + std::to_string(options.height) +
@@ -124,30 +166,46 @@ Bundle make_bundle(const Scene& scene, const LightBake& light, const std::vector
   bundle.clip_positions = clip_positions(scene, options);
   bundle.indices = scene.indices;
   const std::size_t vertices = bundle.vertex_count();
-  const bool per_vertex = light.storage == CoefficientStorage::vertex;
-  if (per_vertex) TWINSHADE_CHECK_EQ(std::size_t(light.width), vertices);
 
   bundle.attributes.push_back(attribute("v_uv", scene.uvs, vertices));
   bundle.attributes.push_back(material_attribute(scene, vertices));
   bundle.attributes.push_back(attribute("v_position", scene.positions, vertices));
-  if (!per_vertex) bundle.attributes.push_back(attribute("v_lightmap_uv", scene.lightmap_uvs, vertices));
+  bundle.attributes.push_back(attribute("v_normal", scene.normals, vertices));
+  bundle.attributes.push_back(attribute("v_tangent", scene.tangents, vertices));
+  if (!scene.lightmap_uvs.empty())
+    bundle.attributes.push_back(attribute("v_lightmap_uv", scene.lightmap_uvs, vertices));
   bundle.textures.push_back(albedo_maps(scene, options.albedo));
   bundle.textures.push_back(normal_maps(scene, options.normal_map));
-  for (const TechniqueInfo* basis : bases_in_use(wanted, light.storage)) {
-    if (per_vertex)
-      add_coefficient_attributes(bundle, light, *basis);
-    else
-      add_coefficient_texture(bundle, light, *basis);
-  }
 
-  bundle.notes = light.notes;
-  bundle.notes.emplace_back("coefficients", per_vertex ? "vertex" : "lightmap");
+  std::string storages;
+  for (const CoefficientStorage storage :
+       {CoefficientStorage::lightmap, CoefficientStorage::vertex, CoefficientStorage::volume}) {
+    for (const LightBake& light : lights) {
+      if (light.storage != storage) continue;
+      if (storage == CoefficientStorage::vertex) TWINSHADE_CHECK_EQ(std::size_t(light.width), vertices);
+      add_light(bundle, light, bases_in_use(wanted, storage));
+      add_notes(bundle, light);
+      storages += fmt::format("{}{}", storages.empty() ? "" : " ", storage_name(storage));
+    }
+  }
+  bundle.notes.emplace_back("coefficients", storages);
   std::string names;
-  for (const TechniqueInfo* technique : wanted) names += fmt::format("{}{}", names.empty() ? "" : " ", technique->name);
+  const TechniqueInfo* last = nullptr;
+  for (const LitTechnique& lit : wanted) {
+    if (lit.technique != last) names += fmt::format("{}{}", names.empty() ? "" : " ", lit.technique->name);
+    last = lit.technique;
+  }
   bundle.notes.emplace_back("techniques", names);
   bundle.notes.emplace_back("albedo", options.albedo ? "1" : "0");
   bundle.notes.emplace_back("normal_map", options.normal_map ? "1" : "0");
   return bundle;
+}
+
+Bundle make_bundle(const Scene& scene, const LightBake& light, const std::vector<const TechniqueInfo*>& wanted,
+                   const FrameOptions& options) {
+  std::vector<LitTechnique> lit;
+  for (const TechniqueInfo* technique : wanted) lit.push_back({technique, light.storage});
+  return make_bundle(scene, {&light, 1}, lit, options);
 }
 
 }  // namespace twinshade

@@ -178,7 +178,7 @@ class ZonalRule final : public Projector::Rule {
       for (int c = 0; c < 3; ++c) {
         double sum = 0;
         for (int j = 4; j < 9; ++j) sum += from[j * 3 + c] * values[cell * 9 + j];
-        to[12 + c] = sum * std::sqrt(4 * portable::kPi / 5);
+        to[12 + c] = axes[cell] == glm::dvec3(0) ? 0 : sum * std::sqrt(4 * portable::kPi / 5);
       }
     }
   }

@@ -37,6 +37,11 @@ const TechniqueInfo& find_technique(std::string_view name) {
   throw UserError(unknown_name_message("technique", std::string(name), names));
 }
 
+std::string_view storage_name(CoefficientStorage storage) {
+  constexpr std::string_view kNames[] = {"lightmap", "vertex", "volume"};
+  return kNames[int(storage)];
+}
+
 bool can_read(const TechniqueInfo& technique, CoefficientStorage storage) {
   if (!technique.is_basis || technique.domain == Domain::hemisphere) return storage != CoefficientStorage::volume;
   return technique.domain == Domain::either || storage == CoefficientStorage::volume;

@@ -30,6 +30,7 @@ enum class Projection {
 // Where a technique's shader reads its coefficients: a sampler2DArray over lightmap UVs, vertex attributes (both of
 // tangent space), or an irradiance volume, a grid of probes over the scene (world space).
 enum class CoefficientStorage { lightmap, vertex, volume };
+std::string_view storage_name(CoefficientStorage storage);  // as on the command line
 
 struct TechniqueInfo {
   std::string_view name;

@@ -167,8 +167,7 @@ std::vector<const TechniqueInfo*> chosen_techniques(const ShadingOptions& option
       chosen.push_back(&find_technique(name));
       continue;
     }
-    for (const TechniqueInfo& technique : techniques())
-      if (can_read(technique, CoefficientStorage::lightmap)) chosen.push_back(&technique);
+    for (const TechniqueInfo& technique : techniques()) chosen.push_back(&technique);
   }
   // Registry order, each once: the same choice gives the same bundle however it was spelt.
   std::sort(chosen.begin(), chosen.end());

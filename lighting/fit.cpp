@@ -91,37 +91,30 @@ class LumaChromaFit final : public MomentFit {
  public:
   LumaChromaFit(const TechniqueInfo& basis, std::span<const glm::dvec3> directions, std::span<const double> weights)
       : count_(basis.count), points_(directions.size()) {
-    // The response to one of each number, as YCoCg, where there is any
+    // The response to one of each number, as YCoCg, where there is any: most numbers matter in few places
     const IrradianceModule module(basis, Number::float64);
     std::vector<std::vector<double>> responses;
     for (int scalar = 0; scalar < count_ * 3; ++scalar) {
-      std::vector<double> rgb = module.run(
+      std::vector<double> response = module.run(
           points_, [&](std::size_t row) { return directions[row]; },
           [&](std::size_t, int i, int c) { return i * 3 + c == scalar ? 1.0 : 0.0; });
-      bool any = false;
+      std::vector<Entry> weighted;
       for (std::size_t p = 0; p < points_; ++p) {
-        const std::array<double, 3> value = to_ycocg(rgb.data() + p * 3);
-        for (int c = 0; c < 3; ++c) {
-          rgb[p * 3 + c] = value[c];
-          any = any || value[c] != 0;
+        const std::array<double, 3> value = to_ycocg(response.data() + p * 3);
+        for (std::size_t c = 0; c < 3; ++c) {
+          response[p * 3 + c] = value[c];
+          if (value[c] != 0) weighted.push_back({p * 3 + c, value[c] * weights[p]});
         }
       }
-      if (!any) continue;
+      if (weighted.empty()) continue;
       used_.push_back(scalar);
-      responses.push_back(std::move(rgb));
+      weighted_.push_back(std::move(weighted));
+      responses.push_back(std::move(response));
     }
     const int n = int(used_.size());
     Matrix gram(n, n);
-    for (int i = 0; i < n; ++i) {
-      std::vector<double> weighted = responses[i];
-      for (std::size_t p = 0; p < points_ * 3; ++p) weighted[p] *= weights[p / 3];
-      for (int k = 0; k <= i; ++k) {
-        double sum = 0;
-        for (std::size_t p = 0; p < points_ * 3; ++p) sum += weighted[p] * responses[k][p];
-        gram(i, k) = gram(k, i) = sum;
-      }
-      weighted_.push_back(std::move(weighted));
-    }
+    for (int i = 0; i < n; ++i)
+      for (int k = 0; k <= i; ++k) gram(i, k) = gram(k, i) = product(weighted_[i], responses[k]);
     factors_ = factorise(basis, gram);
   }
 
@@ -133,11 +126,7 @@ class LumaChromaFit final : public MomentFit {
       const std::array<double, 3> value = to_ycocg(samples + p * 3);
       std::copy(value.begin(), value.end(), ycocg.begin() + std::ptrdiff_t(p * 3));
     }
-    for (std::size_t i = 0; i < used_.size(); ++i) {
-      double sum = 0;
-      for (std::size_t p = 0; p < points_ * 3; ++p) sum += weighted_[i][p] * ycocg[p];
-      moments[i] = sum;
-    }
+    for (std::size_t i = 0; i < used_.size(); ++i) moments[i] = product(weighted_[i], ycocg);
   }
 
   void solve(const double* moments, double* coefficients) const override {
@@ -147,10 +136,20 @@ class LumaChromaFit final : public MomentFit {
   }
 
  private:
+  struct Entry {
+    std::size_t place;  // point * 3 + channel of YCoCg
+    double value;
+  };
+  static double product(const std::vector<Entry>& sparse, const std::vector<double>& dense) {
+    double sum = 0;
+    for (const Entry& entry : sparse) sum += entry.value * dense[entry.place];
+    return sum;
+  }
+
   int count_;
   std::size_t points_;
-  std::vector<int> used_;                      // numbers that have any effect
-  std::vector<std::vector<double>> weighted_;  // [number][point * 3 + channel of YCoCg]
+  std::vector<int> used_;                     // numbers that have any effect
+  std::vector<std::vector<Entry>> weighted_;  // what each of them does, times the points' weights
   Eigen::LLT<Matrix> factors_;
 };
 

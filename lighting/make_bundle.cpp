@@ -46,18 +46,14 @@ std::vector<const TechniqueInfo*> bases_in_use(const std::vector<LitTechnique>& 
 // Coefficient i of channel c of a cell at [(i * cells + cell) * stride + c].
 std::vector<float> coefficients(const LightBake& light, const TechniqueInfo& basis, std::size_t stride) {
   const std::size_t numbers = std::size_t(light.radiance_count) * 3;
-  const int taken = light.storage == CoefficientStorage::volume ? kMostRadianceCount : kRadianceCount;
-  const std::size_t stored = std::size_t(taken) * 3;
-  const Projector projector(basis, taken);
+  const Projector projector(basis, light.radiance_count);
   const std::size_t cells = std::size_t(light.width) * light.height, count = std::size_t(basis.count);
   std::vector<float> values(count * cells * stride, 0.0f);
   constexpr std::size_t kBlock = 256;
   parallel_for((cells + kBlock - 1) / kBlock, [&](std::size_t block, int) {
     const std::size_t first = block * kBlock, length = std::min(kBlock, cells - first);
     const float* from = light.sh.data() + first * numbers;
-    std::vector<double> radiance(length * stored, 0.0);  // bands that were not baked are zero
-    for (std::size_t cell = 0; cell < length; ++cell)
-      std::copy(from + cell * numbers, from + (cell + 1) * numbers, radiance.begin() + std::ptrdiff_t(cell * stored));
+    const std::vector<double> radiance(from, from + length * numbers);
     std::vector<double> projected(length * count * 3);
     projector.project(radiance.data(), projected.data(), length);
     for (std::size_t cell = 0; cell < length; ++cell)

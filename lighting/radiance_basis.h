@@ -13,7 +13,7 @@
 namespace twinshade {
 
 inline constexpr int kRadianceCount = 25;        // lightmaps, vertices
-inline constexpr int kVolumeRadianceCount = 25;  // volumes
+inline constexpr int kVolumeRadianceCount = 36;  // volumes
 inline constexpr int kMostRadianceCount = 36;
 
 // The basis of radiance with so many functions: 4, 9, 16, 25 or 36, l < 2 to l < 6.

@@ -132,6 +132,16 @@ double MinimumWindow::strength(const double* sh) const {
     if (lit[c] && !(channels[c].constant > 0)) return kStrongest;
   }
 
+  // Mostly the bands cannot reach the constant at all
+  bool reaches = false;
+  for (int c = 0; c < 3; ++c) {
+    double norm = 0;
+    for (int i = 0; i < 3; ++i) norm += glm::dot(channels[c].quadratic[i], channels[c].quadratic[i]);
+    const double most = std::sqrt(glm::dot(channels[c].linear, channels[c].linear)) + std::sqrt(norm);
+    reaches = reaches || (lit[c] && !(most <= channels[c].constant));
+  }
+  if (!reaches) return 0;
+
   // Directions that some window between none and the strongest could leave below zero
   const BandFactors strongest = minimum_window(kStrongest);
   std::vector<Place> places;
@@ -174,8 +184,9 @@ double MinimumWindow::strength(const double* sh) const {
                factors[2] * glm::dot(n, channels[c].quadratic * n);
       };
       glm::dvec3 lowest = directions_[0];
+      double lowest_height = height(lowest);
       for (const glm::dvec3& n : directions_)
-        if (height(n) < height(lowest)) lowest = n;
+        if (const double h = height(n); h < lowest_height) lowest = n, lowest_height = h;
       lowest = descend(channels[c], factors, lowest);
       if (height(lowest) < -1e-12 * channels[c].constant) {
         below = true;

@@ -12,6 +12,7 @@
 #include "base/names.h"
 #include "base/parallel.h"
 #include "cpu_shaders/runtime/machine.h"
+#include "experiments/basis_cost.h"
 #include "lighting/registry.h"
 #include "scenes/environment.h"
 #include "scenes/scene.h"
@@ -25,27 +26,28 @@ struct Listing {
   Json json = Json::array();
 };
 
-Listing list_techniques(bool only_bases) {
+const char* domain_name(Domain domain) {
+  return domain == Domain::hemisphere ? "hemisphere" : domain == Domain::sphere ? "sphere" : "either";
+}
+
+Listing list_techniques() {
   Listing listing;
-  listing.table.column(only_bases ? "basis" : "technique");
+  listing.table.column("technique");
   listing.table.column("coefficients", Table::Align::right);
   listing.table.column("domain");
   listing.table.column("linear");
   listing.table.column("source");
   for (const TechniqueInfo& technique : techniques()) {
-    if (only_bases && !technique.is_basis) continue;
-    const std::string name(technique.name), source(technique.source);
-    const std::string domain = technique.domain == Domain::hemisphere ? "hemisphere"
-                               : technique.domain == Domain::sphere   ? "sphere"
-                                                                      : "either";
+    const std::string name(technique.name), source(technique.source), file(technique.file);
     if (technique.is_basis) {
+      const std::string domain = domain_name(technique.domain);
       listing.table.row({name, std::to_string(technique.count), domain, technique.linear ? "yes" : "no", source});
       listing.json.push_back({{"name", name},
                               {"basis", true},
                               {"coefficients", technique.count},
                               {"domain", domain},
                               {"linear", technique.linear},
-                              {"file", "shaders/basis/" + std::string(technique.file)},
+                              {"file", "shaders/basis/" + file},
                               {"source", source}});
     } else {
       listing.table.row({name, "-", "-", "-", source});
@@ -54,9 +56,52 @@ Listing list_techniques(bool only_bases) {
                               {"coefficients", nullptr},
                               {"domain", nullptr},
                               {"linear", nullptr},
-                              {"file", "shaders/technique/" + std::string(technique.file)},
+                              {"file", "shaders/technique/" + file},
                               {"source", source}});
     }
+  }
+  return listing;
+}
+
+// What each basis costs: docs/experiments.md says how it is counted.
+Listing list_bases(const Output& output) {
+  Listing listing;
+  listing.table.column("basis");
+  for (const char* heading : {"coefficients", "floats", "read", "operations", "+ -", "*", "/", "sqrt", "select"})
+    listing.table.column(heading, Table::Align::right);
+  listing.table.column("domain");
+  listing.table.column("linear");
+  listing.table.column("source");
+  for (const TechniqueInfo& basis : techniques()) {
+    if (!basis.is_basis) continue;
+    const std::string name(basis.name), source(basis.source), domain = domain_name(basis.domain);
+    output.progress("counting " + name);
+    const BasisCost cost = basis_cost(basis);
+    const OperationCount& operations = cost.operations;
+    const auto text = [](int number) { return std::to_string(number); };
+    listing.table.row({name, text(cost.coefficients), text(3 * cost.coefficients), text(cost.reads),
+                       (operations.loops ? ">= " : "") + text(operations.total()), text(operations.additions),
+                       text(operations.multiplications), text(operations.divisions), text(operations.square_roots),
+                       text(operations.selections), domain, basis.linear ? "yes" : "no", source});
+    listing.json.push_back({{"name", name},
+                            {"basis", true},
+                            {"coefficients", cost.coefficients},
+                            {"floats", 3 * cost.coefficients},
+                            {"coefficients_read", cost.reads},
+                            {"operations", operations.total()},
+                            {"operation_counts",
+                             {{"add", operations.additions},
+                              {"multiply", operations.multiplications},
+                              {"divide", operations.divisions},
+                              {"sqrt", operations.square_roots},
+                              {"select", operations.selections},
+                              {"other", operations.others},
+                              {"integer", operations.integers},
+                              {"loops_counted_once", operations.loops}}},
+                            {"domain", domain},
+                            {"linear", basis.linear},
+                            {"file", "shaders/basis/" + std::string(basis.file)},
+                            {"source", source}});
   }
   return listing;
 }
@@ -166,8 +211,8 @@ struct ListVerb {
     for (const std::string& kind : all) {
       const bool wanted = kinds.empty() || std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
       if (!wanted) continue;
-      const Listing listing = kind == "techniques"     ? list_techniques(false)
-                              : kind == "bases"        ? list_techniques(true)
+      const Listing listing = kind == "techniques"     ? list_techniques()
+                              : kind == "bases"        ? list_bases(output)
                               : kind == "scenes"       ? list_scenes()
                               : kind == "environments" ? list_environments()
                                                        : list_backends(output);

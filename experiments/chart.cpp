@@ -127,7 +127,7 @@ Drawing draw(const LineChart& chart) {
                {.size = 13, .anchor = Anchor::middle, .color = kInk, .upwards = true});
   drawing.path({{left, top}, {left, bottom}, {right, bottom}}, {kFaint, 1, {}});
 
-  std::vector<double> wanted;
+  std::vector<double> wanted, ends;
   std::vector<std::size_t> labelled;
   for (std::size_t s = 0; s < chart.series.size(); ++s) {
     const Series& series = chart.series[s];
@@ -135,6 +135,7 @@ Drawing draw(const LineChart& chart) {
     for (std::size_t i = series.x.size(); i-- > 0;)
       if (x.shows(series.x[i]) && y.shows(series.y[i])) {
         wanted.push_back(y.pixel(series.y[i]));
+        ends.push_back(x.pixel(series.x[i]));
         labelled.push_back(s);
         break;
       }
@@ -142,7 +143,7 @@ Drawing draw(const LineChart& chart) {
   const std::vector<double> place = spread_labels(wanted, kLabelSize + 3, top, bottom);
   for (std::size_t k = 0; k < labelled.size(); ++k) {
     const Color color = series_color(labelled[k]);
-    drawing.line({right + 2, wanted[k]}, {right + 14, place[k]}, {color, 1, {}});
+    drawing.line({ends[k] + 2, wanted[k]}, {right + 14, place[k]}, {color, 1, {}});
     drawing.text({right + 17, place[k] + 4}, chart.series[labelled[k]].label, {.size = kLabelSize, .color = color});
   }
   return drawing;
@@ -150,7 +151,7 @@ Drawing draw(const LineChart& chart) {
 
 Drawing draw(const BarChart& chart) {
   const bool legend = chart.bars.size() > 1;
-  const bool dots = chart.value.logarithmic;
+  const bool dots = chart.dots || chart.value.logarithmic;
   const double row_height = dots ? kRowHeight : std::max(kRowHeight, 8.0 + 11.0 * double(chart.bars.size()));
   const double top = legend ? 92 : 68, bottom = top + row_height * double(chart.rows.size());
   const double left = 28 + widest(chart.rows, kLabelSize), right = chart.width - (dots ? 32 : 76);

@@ -35,7 +35,7 @@ struct LineChart {
   double width = 900, height = 560;
 };
 
-// Rows of horizontal bars, or, on a logarithmic axis, where a bar has no honest beginning, of dots.
+// Rows of horizontal bars, or of dots: always on a logarithmic axis, where a bar has no honest beginning.
 struct BarChart {
   std::string title, subtitle;
   Axis value;
@@ -45,6 +45,7 @@ struct BarChart {
     std::vector<double> values;  // of each row; not finite: "-"
   };
   std::vector<Bars> bars;
+  bool dots = false;
   double width = 900;
 };
 

@@ -7,10 +7,13 @@ namespace {
 
 constexpr ExperimentInfo kExperiments[] = {
     {"basis-imse", "error of hemispherical bases on impulses and random signals", false, run_basis_imse},
+    {"figures", "pictures of basis functions, and of signals through hemispherical bases", false, run_figures},
     {"frobenius", "how much of the spherical harmonics each basis holds, and the condition of its Gram matrix", false,
      run_frobenius},
     {"sphere-map-mse", "error of sphere maps that store spherical harmonics, against their size", false,
      run_sphere_map_mse},
+    {"probe-rmse", "error of irradiance probes through bases of the sphere", true, run_probe_rmse},
+    {"wobble", "a single light steered over the sphere: how its peak, rings and shape change", false, run_wobble},
 };
 
 }  // namespace

@@ -120,6 +120,19 @@ SignalBlock random_signals(SignalKind kind, std::uint64_t seed, std::size_t firs
   return block;
 }
 
+SignalBlock sun_signal(double elevation, const std::vector<glm::dvec3>& points) {
+  const double angle = elevation * kPi / 180;
+  const glm::dvec3 light(portable::cos(angle), 0, portable::sin(angle));
+  SignalBlock block;
+  block.irradiance = Matrix(Eigen::Index(points.size()), 1);
+  for (std::size_t p = 0; p < points.size(); ++p)
+    block.irradiance(Eigen::Index(p), 0) = std::max(0.0, glm::dot(points[p], light));
+  const std::vector<double> values = radiance_basis({&light, 1});
+  block.radiance = Eigen::Map<const Matrix>(values.data(), kRadianceCount, 1);
+  block.flat = {light.z};
+  return block;
+}
+
 Impulses uniform_impulses() {
   Impulses impulses;
   const LineQuadrature elevations = root_safe_line(kElevations);

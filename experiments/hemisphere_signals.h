@@ -22,6 +22,9 @@ enum class SignalKind { impulses, harmonics };
 SignalBlock random_signals(SignalKind kind, std::uint64_t seed, std::size_t first, std::size_t count,
                            const std::vector<glm::dvec3>& points, const Matrix& radiance_at_points);
 
+// One unit impulse, elevation degrees above the horizon, from the +x side.
+SignalBlock sun_signal(double elevation, const std::vector<glm::dvec3>& points);
+
 // Unit impulses, each with quadrature points of where it lights the hemisphere: the lune between the horizons of the
 // surface and of the light, where irradiance is smooth.
 struct Impulses {

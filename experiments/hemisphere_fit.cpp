@@ -1,0 +1,56 @@
+#include "experiments/hemisphere_fit.h"
+
+#include <Eigen/Cholesky>
+
+#include "lighting/radiance_basis.h"
+
+namespace twinshade {
+
+std::string why_not_hemispherical(const TechniqueInfo& basis) {
+  if (basis.domain == Domain::sphere) return "it is of the sphere, not of the hemisphere";
+  if (!basis.linear) return "it is not linear";
+  return "";
+}
+
+HemisphereFit::HemisphereFit(const TechniqueInfo& basis, const Quadrature& points)
+    : basis_(basis), projector_(basis, kRadianceCount), functions_(basis_matrix(basis, points.directions)) {
+  if (!fits_samples()) return;
+  Matrix weighted = functions_.transpose();
+  for (Eigen::Index p = 0; p < weighted.cols(); ++p) weighted.col(p) *= points.weights[std::size_t(p)];
+  Matrix gram = Matrix::Zero(basis.count, basis.count);
+  for (Eigen::Index p = 0; p < weighted.cols(); ++p)
+    for (int i = 0; i < basis.count; ++i)
+      for (int k = 0; k < basis.count; ++k) gram(i, k) += weighted(i, p) * functions_(p, k);
+  solution_ = gram.llt().solve(weighted);
+}
+
+Matrix HemisphereFit::coefficients(const SignalBlock& block) const {
+  const Eigen::Index count = block.irradiance.cols();
+  Matrix result = Matrix::Zero(basis_.count, count);
+  if (fits_samples()) {
+    for (Eigen::Index i = 0; i < result.rows(); ++i)
+      for (Eigen::Index p = 0; p < solution_.cols(); ++p) {
+        const double factor = solution_(i, p);
+        for (Eigen::Index s = 0; s < count; ++s) result(i, s) += factor * block.irradiance(p, s);
+      }
+    return result;
+  }
+  for (Eigen::Index s = 0; s < count; ++s) {
+    std::vector<double> radiance;
+    for (int j = 0; j < kRadianceCount; ++j) radiance.push_back(block.radiance(j, s));
+    const std::vector<double> one = from_radiance(radiance, block.flat[std::size_t(s)]);
+    for (int i = 0; i < basis_.count; ++i) result(i, s) = one[std::size_t(i)];
+  }
+  return result;
+}
+
+std::vector<double> HemisphereFit::from_radiance(const std::vector<double>& radiance, double flat) const {
+  if (basis_.projection == Projection::value_at_normal) return {flat};
+  std::vector<double> grey, coefficients(std::size_t(basis_.count) * 3), one;
+  for (const double value : radiance) grey.insert(grey.end(), 3, value);
+  projector_.project(grey.data(), coefficients.data());
+  for (std::size_t i = 0; i < coefficients.size(); i += 3) one.push_back(coefficients[i]);
+  return one;
+}
+
+}  // namespace twinshade

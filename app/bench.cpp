@@ -61,6 +61,7 @@ class BenchRun {
     provenance_.add(subject_);
     table_.column("technique");
     table_.column("light");
+    table_.column("map");
     table_.column("renderer");
     table_.column("isa");
     table_.column("attributes");
@@ -160,7 +161,7 @@ class BenchRun {
         failures_ += fmt::format("failed {} on {}: {}\n", shader.technique, renderer, way.failure);
         rows_.push_back({{"technique", shader.technique},
                          {"light", light},
-                         {"map", nullptr},
+                         {"map", shader.map.empty() ? Json(nullptr) : Json(shader.map)},
                          {"renderer", way.renderer},
                          {"depth_prepass", way.depth_prepass},
                          {"error", way.failure}});
@@ -170,7 +171,7 @@ class BenchRun {
       const double ns_per_pixel = way.shaded_pixels == 0 ? 0 : ms.median * 1e6 / double(way.shaded_pixels);
       Json row{{"technique", shader.technique},
                {"light", light},
-               {"map", nullptr},
+               {"map", shader.map.empty() ? Json(nullptr) : Json(shader.map)},
                {"renderer", way.renderer},
                {"isa", isa.empty() ? Json(nullptr) : Json(isa)},
                {"number", isa.empty() ? Json(nullptr) : Json(number_name(*way.cpu.number))},
@@ -191,9 +192,9 @@ class BenchRun {
         ratio_text = fmt::format("{:.2f}", ratio);
       }
       rows_.push_back(std::move(row));
-      table_.row({shader.technique, shader.light.empty() ? "-" : shader.light, renderer, isa, attributes,
-                  fmt::format("{:.2f}", ms.median), fmt::format("{:.2f}", ms.q1), fmt::format("{:.2f}", ms.q3),
-                  fmt::format("{:.2f}", ns_per_pixel), ratio_text});
+      table_.row({shader.technique, shader.light.empty() ? "-" : shader.light, shader.map.empty() ? "-" : shader.map,
+                  renderer, isa, attributes, fmt::format("{:.2f}", ms.median), fmt::format("{:.2f}", ms.q1),
+                  fmt::format("{:.2f}", ms.q3), fmt::format("{:.2f}", ns_per_pixel), ratio_text});
     }
   }
 

@@ -36,7 +36,7 @@ struct CompareVerb {
 
 // One line of the table: shader `technique` on b, held to the reference a.
 struct Row {
-  std::string technique, light, a, b;
+  std::string technique, light, map, a, b;
   std::string failure;  // why there is no comparison
   Comparison comparison;
   std::string hash_a, hash_b;
@@ -133,7 +133,7 @@ class CompareRun {
   void compare_with(const Shading& shader, const std::string& a, const Frame& frame_a, const std::string& b,
                     const Frame& frame_b, CompareScope scope) {
     Row row;
-    row.technique = shader.technique, row.light = shader.light, row.a = a, row.b = b;
+    row.technique = shader.technique, row.light = shader.light, row.map = shader.map, row.a = a, row.b = b;
     row.comparison = compare_frames(frame_a, frame_b, scope);
     row.hash_a = frame_hash(frame_a), row.hash_b = frame_hash(frame_b);
     write_pictures(shader, b, frame_b);
@@ -171,14 +171,15 @@ class CompareRun {
 
   void fail(const Shading& shader, const std::string& a, const std::string& b, const std::string& reason) {
     Row row;
-    row.technique = shader.technique, row.light = shader.light, row.a = a, row.b = b;
+    row.technique = shader.technique, row.light = shader.light, row.map = shader.map, row.a = a, row.b = b;
     row.failure = reason;
     rows_.push_back(std::move(row));
   }
 
   std::string picture_path(const Shading& shader, const std::string& what) const {
     const bool by_light = verb_.shading.light == LightSource::all;
-    const std::string& name = verb_.shading.shader.empty() && !by_light ? shader.technique : shader.source.name;
+    const bool by_name = !verb_.shading.shader.empty() || by_light || !shader.map.empty();
+    const std::string& name = by_name ? shader.source.name : shader.technique;
     return (std::filesystem::path(verb_.folder) / (name + "." + what + ".png")).string();
   }
 
@@ -217,6 +218,7 @@ class CompareRun {
     Table table;
     table.column("technique");
     table.column("light");
+    table.column("map");
     table.column("a");
     table.column("b");
     for (const char* heading : {"shaded", "coverage", "id", "depth", "attributes", "pixels", "denormal", "max ULP"})
@@ -241,10 +243,11 @@ class CompareRun {
   }
 
   std::vector<std::string> cells(const Row& row) const {
-    std::vector<std::string> cells{row.technique, row.light.empty() ? "-" : row.light, row.a, row.b};
+    std::vector<std::string> cells{row.technique, row.light.empty() ? "-" : row.light, row.map.empty() ? "-" : row.map,
+                                   row.a, row.b};
     const Comparison& c = row.comparison;
     if (!row.failure.empty()) {
-      cells.resize(12, "-");
+      cells.resize(13, "-");
     } else {
       for (const std::uint64_t count : {c.shaded_pixels, c.coverage_differs, c.id_differs, c.depth_differs,
                                         c.attributes_differ, c.pixels_differ, c.denormal_only})
@@ -258,7 +261,7 @@ class CompareRun {
   Json json(const Row& row) const {
     Json json{{"technique", row.technique},
               {"light", row.light.empty() ? Json(nullptr) : Json(row.light)},
-              {"map", nullptr},
+              {"map", row.map.empty() ? Json(nullptr) : Json(row.map)},
               {"a", row.a},
               {"b", row.b},
               {"attributes", attribute_mode_name(verb_.attributes)}};

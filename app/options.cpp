@@ -23,6 +23,7 @@ constexpr std::uint32_t kLargestFrame = 16384;
 constexpr std::uint32_t kLargestLightmap = 4096;
 constexpr std::uint32_t kMostRays = 65536;
 constexpr int kMostProbes = 256;
+constexpr int kWidestMap = 4096;
 constexpr int kMostThreads = 1024;
 
 // Index of `value` in `names`; UserError with the nearest ones where there is none.
@@ -160,6 +161,29 @@ void add_subject_options(CLI::App& command, SubjectOptions& options) {
              given("--probe-rays", [&](const std::string& text) {
                options.probe_rays = parse_between<std::uint32_t>("--probe-rays", text, 1, kMostRays);
              }));
+  add_parsed(command, "--env2", "E", "second environment, blended into the first by --blend",
+             given("--env2", [&](const std::string& text) { options.second_environment = text; }));
+  add_parsed(command, "--blend", "F", "part of the second environment, 0 to 1 (default: 0.5)",
+             given("--blend", [&](const std::string& text) {
+               options.blend = parse_real("--blend", text);
+               if (!(options.blend >= 0 && options.blend <= 1))
+                 throw UserError("--blend " + text + ": must be from 0 to 1");
+             }));
+  add_parsed(command, "--map-width", "N", "texels across a layer of the tables' sphere map (default: 32)",
+             given("--map-width", [&](const std::string& text) {
+               options.visibility.map_width = parse_between("--map-width", text, 1, kWidestMap);
+             }));
+  add_parsed(command, "--order", "N", "order of the visibility whose principal components are taken (default: 6)",
+             given("--order",
+                   [&](const std::string& text) { options.visibility.order = parse_between("--order", text, 2, 6); }));
+  add_parsed(command, "--visibility-rays", "N", "directions over the sphere per texel or vertex (default: 512)",
+             given("--visibility-rays", [&](const std::string& text) {
+               options.visibility_rays = parse_between<std::uint32_t>("--visibility-rays", text, 1, kMostRays);
+             }));
+  add_parsed(command, "--visibility-storage", "float32|half|unorm8",
+             "how visibility's weights are kept (default: float32)",
+             given("--visibility-storage",
+                   [&](const std::string& text) { options.visibility.storage = find_texel_storage(text); }));
   add_parsed(command, "--albedo", "on|off", "materials' colours (default: on)",
              given("--albedo", [&](const std::string& text) { options.albedo = parse_switch("--albedo", text); }));
   add_parsed(
@@ -172,6 +196,9 @@ void add_technique_option(CLI::App& command, ShadingOptions& options, const std:
   command.add_option("--technique", options.techniques, "techniques, or all (default: " + default_techniques + ")")
       ->delimiter(',')
       ->type_name("T,...");
+  command.add_option("--map", options.maps, "sphere maps of techniques that look up tables, or all (default: cube)")
+      ->delimiter(',')
+      ->type_name("M,...");
 }
 
 void add_light_option(CLI::App& command, ShadingOptions& options) {

@@ -11,6 +11,7 @@
 
 #include "cpu_shaders/runtime/shader_abi.h"
 #include "golden/pictures.h"
+#include "lighting/visibility_bundle.h"
 #include "raster/renderer.h"
 #include "scenes/scene.h"
 
@@ -55,6 +56,10 @@ struct SubjectOptions {
   std::uint32_t lightmap_size = 512, rays = 256;
   glm::ivec3 volume{16, 8, 16};  // probes
   std::uint32_t probe_rays = 512;
+  std::string second_environment;  // blended into the first; empty: none
+  double blend = 0.5;              // part of the second
+  std::uint32_t visibility_rays = 512;
+  VisibilityLighting visibility;   // its maps come from ShadingOptions
   std::vector<std::string> given;  // names of those options that were set: a bundle file admits none
 };
 
@@ -63,6 +68,7 @@ struct ShadingOptions {
   std::vector<std::string> techniques;  // "all" or names
   std::string shader;                   // a user's fragment shader, or empty
   LightSource light = LightSource::automatic;
+  std::vector<std::string> maps{"cube"};  // "all" or names, for techniques that look up tables
 };
 
 // How the CPU draws.
@@ -74,9 +80,10 @@ struct CpuOptions {
 
 void add_common_options(CLI::App& command, CommonOptions& options);
 void add_subject_options(CLI::App& command, SubjectOptions& options);
+// --technique and --map.
 void add_technique_option(CLI::App& command, ShadingOptions& options, const std::string& default_techniques);
 void add_light_option(CLI::App& command, ShadingOptions& options);
-// --technique, --light and --shader.
+// --technique, --map, --light and --shader.
 void add_shading_options(CLI::App& command, ShadingOptions& options, const std::string& default_techniques);
 void add_attribute_option(CLI::App& command, AttributeMode& attributes);
 // --gl-fma, and --no-host-fma for short.

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/names.h"
 #include "lighting/bake.h"
+#include "lighting/environment_light.h"
 #include "scenes/environment.h"
 #include "scenes/scene.h"
 
@@ -42,6 +43,25 @@ bool can_keep(const Scene& scene, CoefficientStorage storage) {
   return storage != CoefficientStorage::lightmap || (!scene.lightmap_uvs.empty() && !scene.procedural_coefficients);
 }
 
+bool stores_visibility(const TechniqueInfo& technique) { return technique.weights != VisibilityWeights::none; }
+
+// Visibility needs surfaces in the world.
+bool can_keep(const Scene& scene, const TechniqueInfo& technique, CoefficientStorage storage) {
+  return can_keep(scene, storage) && !(stores_visibility(technique) && scene.procedural_coefficients);
+}
+
+// Registry order, each once.
+std::vector<const SphereMapInfo*> chosen_maps(const ShadingOptions& options) {
+  std::vector<const SphereMapInfo*> chosen;
+  for (const SphereMapInfo& map : sphere_maps())
+    for (const std::string& name : options.maps)
+      if (name == "all" || &find_sphere_map(name) == &map) {
+        chosen.push_back(&map);
+        break;
+      }
+  return chosen;
+}
+
 // All "coefficients_X" and "volume_X" in a user's shader: what it wants baked.
 std::vector<LitTechnique> coefficients_read(const std::string& text, const Scene& scene, LightSource light) {
   const bool per_vertex = light == LightSource::vertex || !can_keep(scene, CoefficientStorage::lightmap);
@@ -59,6 +79,14 @@ std::vector<LitTechnique> coefficients_read(const std::string& text, const Scene
 // anything.
 bool has_coefficients(const Bundle& bundle, const TechniqueInfo& technique, CoefficientStorage storage) {
   const std::string name(technique.name);
+  if (stores_visibility(technique)) {
+    const std::string weights = visibility_name(technique.weights);
+    const std::uint32_t quads = std::uint32_t(technique.count + 3) / 4;
+    if (storage == CoefficientStorage::vertex)
+      return bundle.find_attribute(fmt::format("{}[{}]", weights, quads - 1)) != nullptr;
+    const Texture* texture = bundle.find_texture(weights);
+    return storage == CoefficientStorage::lightmap && texture && texture->layers >= quads;
+  }
   if (!technique.is_basis) {
     const std::string* note = bundle.find_note("coefficients");
     return !note || note->empty() || names(*note, std::string(storage_name(storage)));
@@ -117,10 +145,41 @@ bool reads_coefficients(const LitTechnique& lit) {
          technique_source(*lit.technique, lit.storage).text.find("coefficients_") != std::string::npos;
 }
 
-Bundle bundle_from_scene(const SubjectOptions& options, const Scene& scene, const std::vector<LitTechnique>& baked,
-                         const CommonOptions& common) {
+Environment load_light(const SubjectOptions& options) {
   Environment environment = load_environment(options.environment, options.clamp_radiance);
-  if (options.rotation_degrees != 0) environment = rotate_environment(environment, options.rotation_degrees);
+  if (!options.second_environment.empty())
+    environment = blend_environments(environment, load_environment(options.second_environment, options.clamp_radiance),
+                                     options.blend);
+  return options.rotation_degrees == 0 ? environment : rotate_environment(environment, options.rotation_degrees);
+}
+
+// What techniques of precomputed visibility read, from each storage that one of them is drawn from.
+void add_visibility(Bundle& bundle, const SubjectOptions& options, const ShadingOptions& shading, const Scene& scene,
+                    const Environment& environment, const std::vector<LitTechnique>& baked,
+                    const CommonOptions& common) {
+  VisibilityOptions bake;
+  bake.lightmap_size = options.lightmap_size;
+  bake.rays = options.visibility_rays;
+  bake.seed = common.seed;
+  bake.show_progress = !common.quiet;
+  std::vector<VisibilityBake> bakes;
+  for (const CoefficientStorage storage : kStorages) {
+    const bool needed = std::any_of(baked.begin(), baked.end(), [&](const LitTechnique& lit) {
+      return lit.storage == storage && stores_visibility(*lit.technique);
+    });
+    if (!needed) continue;
+    bake.per_vertex = storage == CoefficientStorage::vertex;
+    bakes.push_back(bake_visibility(scene, bake));
+  }
+  if (bakes.empty()) return;
+  VisibilityLighting lighting = options.visibility;
+  lighting.maps = chosen_maps(shading);
+  add_visibility(bundle, scene, bakes, environment_radiance(environment, 6), baked, lighting);
+}
+
+Bundle bundle_from_scene(const SubjectOptions& options, const ShadingOptions& shading, const Scene& scene,
+                         const std::vector<LitTechnique>& baked, const CommonOptions& common) {
+  const Environment environment = load_light(options);
 
   BakeOptions bake;
   bake.lightmap_size = options.lightmap_size;
@@ -151,7 +210,9 @@ Bundle bundle_from_scene(const SubjectOptions& options, const Scene& scene, cons
   }
   frame.albedo = options.albedo;
   frame.normal_map = options.normal_map;
-  return make_bundle(scene, lights, baked, frame);
+  Bundle bundle = make_bundle(scene, lights, baked, frame);
+  add_visibility(bundle, options, shading, scene, environment, baked, common);
+  return bundle;
 }
 
 }  // namespace
@@ -199,10 +260,14 @@ Subject load_subject(const SubjectOptions& options, const ShadingOptions& shadin
     for (const std::string& note : scene.notes) output.note(options.scene + ": " + note);
     choose(
         subject, chosen, shading,
-        [&](const TechniqueInfo&, CoefficientStorage storage) { return can_keep(scene, storage); },
-        [&](CoefficientStorage) { return options.scene + " has no lightmap; use --light vertex"; });
+        [&](const TechniqueInfo& technique, CoefficientStorage storage) { return can_keep(scene, technique, storage); },
+        [&](CoefficientStorage storage) {
+          return options.scene + (storage == CoefficientStorage::lightmap
+                                      ? " has no lightmap; use --light vertex"
+                                      : " has no surfaces in the world whose visibility could be baked");
+        });
     subject.bundle = bundle_from_scene(
-        options, scene, own_shader ? coefficients_read(text, scene, shading.light) : subject.drawn, common);
+        options, shading, scene, own_shader ? coefficients_read(text, scene, shading.light) : subject.drawn, common);
   }
   subject.hash = bundle_hash(subject.bundle);
   return subject;
@@ -211,11 +276,17 @@ Subject load_subject(const SubjectOptions& options, const ShadingOptions& shadin
 std::vector<Shading> load_shadings(const ShadingOptions& options, const Subject& subject) {
   std::vector<Shading> shadings;
   if (!options.shader.empty()) {
-    shadings.push_back({options.shader, "", load_shader(options.shader)});
+    shadings.push_back({options.shader, "", "", load_shader(options.shader)});
   } else {
-    for (const LitTechnique& lit : subject.drawn)
-      shadings.push_back({std::string(lit.technique->name), std::string(storage_name(lit.storage)),
-                          technique_source(*lit.technique, lit.storage)});
+    for (const LitTechnique& lit : subject.drawn) {
+      const std::string name(lit.technique->name), light(storage_name(lit.storage));
+      if (!reads_sphere_map(*lit.technique)) {
+        shadings.push_back({name, light, "", technique_source(*lit.technique, lit.storage)});
+        continue;
+      }
+      for (const SphereMapInfo* map : chosen_maps(options))
+        shadings.push_back({name, light, std::string(map->name), visibility_source(*lit.technique, lit.storage, *map)});
+    }
   }
   return shadings;
 }

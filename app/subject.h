@@ -26,8 +26,13 @@ struct Shading {
   std::string technique;  // as on the command line; a user's shader: its path
   std::string light;      // where it reads its coefficients, as on the command line; a user's shader: empty
 
-  std::string label() const { return light.empty() ? technique : technique + " (" + light + ")"; }
+  std::string map;  // sphere map of the tables that it looks up; empty: none
   ShaderSource source;
+
+  std::string label() const {
+    const std::string places = light + (map.empty() ? "" : ", " + map);
+    return places.empty() ? technique : technique + " (" + places + ")";
+  }
 };
 
 // Whether --technique says "all".

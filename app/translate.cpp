@@ -65,7 +65,7 @@ struct TranslateVerb {
       return json;
     };
     Provenance provenance(common);
-    provenance.add(Shading{shader, "", source});
+    provenance.add(Shading{shader, "", "", source});
     output.json({{"provenance", provenance.json()},
                  {"shader", shader},
                  {"file", file.empty() ? Json(nullptr) : Json(file)},

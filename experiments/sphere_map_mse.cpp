@@ -11,10 +11,10 @@
 #include "experiments/bases.h"
 #include "experiments/chart.h"
 #include "experiments/sphere_map_drawing.h"
-#include "experiments/texel_storage.h"
 #include "lighting/radiance_basis.h"
 #include "lighting/random.h"
 #include "lighting/sphere_map_grid.h"
+#include "lighting/texel_storage.h"
 
 namespace twinshade {
 namespace {

@@ -13,9 +13,22 @@ constexpr TechniqueInfo kTechniques[] = {
   {#name, #file, true, Domain::domain, count, linear, Projection::projection, source},
 #define TECHNIQUE(name, file, source) \
   {#name, #file, false, Domain::hemisphere, 0, false, Projection::least_squares, source},
+#define VISIBILITY(name, file, weights, count, mean, tables, source) \
+  {#name,                                                            \
+   #file,                                                            \
+   false,                                                            \
+   Domain::hemisphere,                                               \
+   count,                                                            \
+   false,                                                            \
+   Projection::least_squares,                                        \
+   source,                                                           \
+   #tables,                                                          \
+   VisibilityWeights::weights,                                       \
+   mean},
 #include "lighting/registry.def"
 #undef BASIS
 #undef TECHNIQUE
+#undef VISIBILITY
 };
 
 // A direction with a NaN counts as the zero vector, for which every basis has a value.
@@ -47,12 +60,46 @@ bool can_read(const TechniqueInfo& technique, CoefficientStorage storage) {
   return technique.domain == Domain::either || storage == CoefficientStorage::volume;
 }
 
+bool reads_sphere_map(const TechniqueInfo& technique) {
+  return technique.weights != VisibilityWeights::none && technique.tables != "none";
+}
+
+std::string visibility_name(VisibilityWeights weights) {
+  return weights == VisibilityWeights::sh    ? "visibility_sh"
+         : weights == VisibilityWeights::pca ? "visibility_pca"
+                                             : "visibility_ambient";
+}
+
+std::string light_tables_name(const TechniqueInfo& technique, const SphereMapInfo& map) {
+  return "tables_" + std::string(technique.tables) + "_" + std::string(map.name);
+}
+
+ShaderSource visibility_source(const TechniqueInfo& technique, CoefficientStorage storage, const SphereMapInfo& map) {
+  TWINSHADE_CHECK_EQ(technique.weights == VisibilityWeights::none, false);
+  const bool vertex = storage == CoefficientStorage::vertex, mapped = reads_sphere_map(technique);
+  std::string text = vertex ? "#define TWINSHADE_VERTEX_COEFFICIENTS 1\n" : "";
+  text += "#define VISIBILITY " + visibility_name(technique.weights) + "\n";
+  text += "#define VISIBILITY_COUNT " + std::to_string(technique.count) + "\n";
+  text += "#define VISIBILITY_MEAN " + std::to_string(int(technique.has_mean)) + "\n";
+  text += "#include \"technique/surface_world.glsl\"\n";
+  text += "#include \"technique/visibility_" + std::string(vertex ? "vertex" : "lightmap") + ".glsl\"\n";
+  if (mapped) {
+    text += "#define LIGHT_TABLES " + light_tables_name(technique, map) + "\n";
+    text += "#include \"sphere_map/" + std::string(map.file) + "\"\n";
+  }
+  text += "#include \"technique/" + std::string(technique.file) + "\"\n";
+  text += "#include \"technique/irradiance_main.glsl\"\n";
+  const std::string name = std::string(technique.name) + (mapped ? "_" + std::string(map.name) : "");
+  return resolve_shader(name + (vertex ? "_vertex" : ""), text, std::string(technique.name));
+}
+
 ShaderSource technique_source(const TechniqueInfo& technique, CoefficientStorage storage,
                               const std::vector<std::string>& include_folders) {
   const std::string name(technique.name), file(technique.file);
   if (!can_read(technique, storage))
     throw UserError("technique " + name + " does not read its coefficients from " +
                     (storage == CoefficientStorage::volume ? "an irradiance volume" : "lightmaps or vertices"));
+  if (technique.weights != VisibilityWeights::none) return visibility_source(technique, storage, sphere_maps().front());
   const bool vertex = storage == CoefficientStorage::vertex, volume = storage == CoefficientStorage::volume;
   std::string text = vertex ? "#define TWINSHADE_VERTEX_COEFFICIENTS 1\n" : "";
   if (technique.is_basis) {

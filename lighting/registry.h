@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cpu_shaders/shader_source.h"
+#include "lighting/sphere_maps.h"
 
 namespace twinshade {
 
@@ -32,15 +33,21 @@ enum class Projection {
 enum class CoefficientStorage { lightmap, vertex, volume };
 std::string_view storage_name(CoefficientStorage storage);  // as on the command line
 
+// What a technique of precomputed visibility stores.
+enum class VisibilityWeights { none, sh, pca, ambient };
+
 struct TechniqueInfo {
   std::string_view name;
   std::string_view file;  // under shaders/basis/ (bases) or shaders/technique/
   bool is_basis;
   Domain domain;          // bases
-  int count;              // RGB coefficients, as COEF numbers them; 0 where not a basis of its own
+  int count;              // RGB coefficients, as COEF numbers them, or weights of visibility; else 0
   bool linear;            // bases: each channel a sum of coefficients times basis_value
   Projection projection;  // bases
   std::string_view source;
+  std::string_view tables = "none";  // of visibility techniques: kind of L x H tables
+  VisibilityWeights weights = VisibilityWeights::none;
+  bool has_mean = false;
 };
 
 std::span<const TechniqueInfo> techniques();
@@ -57,6 +64,14 @@ bool can_read(const TechniqueInfo& technique, CoefficientStorage storage);
 // include_folders: searched for the basis' file before the built-in ones, for techniques that are not in the registry.
 ShaderSource technique_source(const TechniqueInfo& technique, CoefficientStorage storage,
                               const std::vector<std::string>& include_folders = {});
+
+// Visibility techniques. Names of what their shaders read: texture (lightmap; layer q: weights 4q to 4q + 3) or
+// attributes (vertex; "visibility_sh[q]"), and the texture array of L x H tables.
+bool reads_sphere_map(const TechniqueInfo& technique);
+std::string visibility_name(VisibilityWeights weights);
+std::string light_tables_name(const TechniqueInfo& technique, const SphereMapInfo& map);
+// The whole fragment shader, "unc3_cube" or "unc3_cube_vertex"; technique_source gives it for the first sphere map.
+ShaderSource visibility_source(const TechniqueInfo& technique, CoefficientStorage storage, const SphereMapInfo& map);
 
 // For the host: `in vec3 direction` to `out float value[BASIS_COUNT]`, the functions of a linear basis. UserError where
 // the technique is none. A direction with a NaN counts as the zero vector, here and below.

@@ -8,6 +8,7 @@
 namespace twinshade {
 
 Scene make_courtyard(std::uint32_t triangles);
+Scene make_house(std::uint32_t triangles);
 Scene make_spheres(std::uint32_t triangles);
 Scene make_quad(std::uint32_t triangles);
 // with_invalid: NaN and infinite clip positions among the valid ones.

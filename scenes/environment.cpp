@@ -83,6 +83,21 @@ Environment rotate_environment(const Environment& environment, double degrees) {
   return result;
 }
 
+Environment blend_environments(const Environment& a, const Environment& b, double part) {
+  if (!(part >= 0 && part <= 1)) throw UserError("blend of environments must be from 0 to 1");
+  const bool same_size = a.width == b.width && a.height == b.height;
+  Environment result = a;
+  result.name = a.name + " + " + b.name;
+  for (std::uint32_t y = 0; y < a.height; ++y)
+    for (std::uint32_t x = 0; x < a.width; ++x) {
+      const std::size_t pixel = std::size_t(y) * a.width + x;
+      const dvec3 from(a.radiance[pixel]);
+      const dvec3 to = same_size ? dvec3(b.radiance[pixel]) : b.radiance_towards(a.pixel_direction(x, y));
+      result.radiance[pixel] = glm::vec3(from * (1 - part) + to * part);
+    }
+  return result;
+}
+
 std::string environment_hash(const Environment& environment) {
   static_assert(sizeof(glm::vec3) == 12);
   Sha256 hash;

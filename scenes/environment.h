@@ -29,6 +29,9 @@ struct Environment {
 Environment load_environment(const std::string& name_or_path, bool clamp_radiance = false);
 // Rotated about Y, counter-clockwise seen from above, by resampling on lookup: same size.
 Environment rotate_environment(const Environment& environment, double degrees);
+// a + (b - a) * part, pixel by pixel of a; b is looked up at the pixels' centres where its size is another. 0 <= part
+// <= 1.
+Environment blend_environments(const Environment& a, const Environment& b, double part);
 std::vector<std::string> environment_names();
 std::string environment_hash(const Environment& environment);
 

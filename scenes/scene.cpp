@@ -28,10 +28,11 @@ void add_value(Sha256& hash, const T& value) {
 
 }  // namespace
 
-std::vector<std::string> scene_names() { return {"courtyard", "spheres", "quad", "raster_torture", "raster_invalid"}; }
+std::vector<std::string> scene_names() { return {"courtyard", "house", "spheres", "quad", "raster_torture", "raster_invalid"}; }
 
 Scene load_scene(const std::string& name_or_path, std::uint32_t triangles) {
   if (name_or_path == "courtyard") return make_courtyard(triangles);
+  if (name_or_path == "house") return make_house(triangles);
   if (name_or_path == "spheres") return make_spheres(triangles);
   if (name_or_path == "quad") return make_quad(triangles);
   if (name_or_path == "raster_torture") return make_raster_torture(triangles, false);

@@ -137,6 +137,46 @@ PatternPoint marble(double u, double v) {
   return {0.0035 * worn - 0.0006 * vein, mix(ground, dvec3(0.46, 0.44, 0.42), 0.45 * vein) * (1 + 0.06 * worn)};
 }
 
+PatternPoint shingles(double u, double v) {
+  constexpr std::int32_t kCourses = 6, kShingles = 8;
+  constexpr double kTile = 1.2, kWidth = kTile / kShingles, kGap = 0.004;
+  const auto course = std::int32_t(std::floor(v * kCourses));
+  const double along = u * kShingles + (course % 2 == 0 ? 0.0 : 0.5);
+  const std::int32_t shingle = wrap(std::int32_t(std::floor(along)), kShingles);
+  const double x = fraction(along) * kWidth, y = fraction(v * kCourses);
+  // Each lies on the one below: thickest at its lower edge, whose height varies.
+  const double lower = 0.06 * lattice_random(shingle, course, 201);
+  const double thickness = y < lower ? 0.25 * y : 0.012 * (1 - 0.8 * y) * smooth_step(lower, lower + 0.05, y);
+  const double side = smooth_step(0, kGap, std::min(x, kWidth - x));
+  const double grain = fractal_noise(u * 64, v * 8, 8, 3, 211);
+  const double tone = lattice_random(shingle, course, 221), weather = fractal_noise(u * 4, v * 4, 4, 3, 231);
+  const dvec3 wood = mix(dvec3(0.20, 0.13, 0.09), dvec3(0.34, 0.25, 0.19), tone);
+  return {thickness * side + 0.0012 * grain, wood * mix(0.45, 1.0, side) *
+                                                 mix(0.6, 1.0, smooth_step(lower, lower + 0.12, y)) *
+                                                 (1 + 0.25 * grain + 0.2 * weather)};
+}
+
+PatternPoint siding(double u, double v) {
+  constexpr std::int32_t kBoards = 8;
+  const auto board = std::int32_t(std::floor(v * kBoards));
+  const double y = fraction(v * kBoards);
+  const double grain = fractal_noise(u * 8, v * 128, 8, 3, 241), worn = fractal_noise(u * 4, v * 4, 4, 4, 251);
+  const double edge = smooth_step(0, 0.07, y);
+  const dvec3 paint = mix(dvec3(0.46, 0.52, 0.50), dvec3(0.56, 0.60, 0.56), lattice_random(board, 0, 261));
+  return {0.015 * (1 - y) * edge + 0.0008 * grain, paint * mix(0.6, 1.0, edge) * (1 + 0.06 * grain + 0.10 * worn)};
+}
+
+PatternPoint planks(double u, double v) {
+  constexpr std::int32_t kPlanks = 7;
+  constexpr double kWidth = 1.0 / kPlanks;
+  const auto plank = std::int32_t(std::floor(v * kPlanks));
+  const double y = fraction(v * kPlanks) * kWidth;
+  const double top = smooth_step(0, 0.008, std::min(y, kWidth - y));
+  const double grain = fractal_noise(u * 8, v * 64, 8, 4, 271);
+  const dvec3 wood = mix(dvec3(0.30, 0.20, 0.12), dvec3(0.42, 0.30, 0.20), lattice_random(plank, 0, 281));
+  return {0.006 * top + 0.0010 * grain, wood * mix(0.4, 1.0, top) * (1 + 0.22 * grain)};
+}
+
 int add_pattern_material(Scene& scene, const char* name, Pattern pattern, std::uint32_t size, double tile) {
   std::vector<double> height(std::size_t(size) * size);
   Image albedo{size, size, std::vector<float>(std::size_t(size) * size * 4)};

@@ -16,12 +16,15 @@ struct PatternPoint {
 // The point (u, v) of a tile, both in [0, 1), repeating outside.
 using Pattern = PatternPoint (*)(double u, double v);
 
-PatternPoint cobbles(double u, double v);  // rounded stones in sand; tile of 1.5 m
-PatternPoint bricks(double u, double v);   // running bond; tile of 1 m
-PatternPoint plaster(double u, double v);  // trowelled, stained; tile of 2 m
-PatternPoint ashlar(double u, double v);   // sawn blocks with narrow joints; tile of 1.6 m
-PatternPoint fluted(double u, double v);   // four flutes along v; tile of .3 m
-PatternPoint marble(double u, double v);   // worn and veined; tile of 1 m
+PatternPoint cobbles(double u, double v);   // rounded stones in sand; tile of 1.5 m
+PatternPoint bricks(double u, double v);    // running bond; tile of 1 m
+PatternPoint plaster(double u, double v);   // trowelled, stained; tile of 2 m
+PatternPoint ashlar(double u, double v);    // sawn blocks with narrow joints; tile of 1.6 m
+PatternPoint fluted(double u, double v);    // four flutes along v; tile of .3 m
+PatternPoint marble(double u, double v);    // worn and veined; tile of 1 m
+PatternPoint shingles(double u, double v);  // wooden, overlapping downwards; tile of 1.2 m
+PatternPoint siding(double u, double v);    // painted clapboards along u; tile of 1.2 m
+PatternPoint planks(double u, double v);    // along u; tile of 1 m
 
 // Adds a material with an albedo image and a normal image of size x size texels to the scene; returns its index.
 // tile: metres that the tile covers, so that slopes are true.

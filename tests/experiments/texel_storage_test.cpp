@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "experiments/texel_storage.h"
+#include "lighting/texel_storage.h"
 
 namespace twinshade {
 

@@ -9,6 +9,7 @@
 
 #include "cpu_shaders/lint/lint.h"
 #include "cpu_shaders/source/builtin_shaders.h"
+#include "lighting/registry.h"
 #include "lighting/sphere_maps.h"
 
 namespace twinshade {
@@ -66,6 +67,21 @@ TEST_CASE("sphere maps lint clean, alone and as the host reads them") {
   for (const SphereMapInfo& map : sphere_maps()) {
     check_clean(sphere_map_taps_source(map));
     check_clean(sphere_map_direction_source(map));
+  }
+}
+
+TEST_CASE("products of spherical harmonics and visibility techniques lint clean") {
+  int count = 0;
+  for (const std::string_view name : builtin_shader_names()) {
+    if (name.substr(0, 3) != "sh/") continue;
+    check_clean(resolve_shader(std::string(name), include_line(name) + "void main() {}\n", "sh.frag"));
+    ++count;
+  }
+  CHECK(count >= 3);
+  for (const TechniqueInfo& technique : techniques()) {
+    if (technique.weights == VisibilityWeights::none) continue;
+    for (const CoefficientStorage storage : {CoefficientStorage::lightmap, CoefficientStorage::vertex})
+      for (const SphereMapInfo& map : sphere_maps()) check_clean(visibility_source(technique, storage, map));
   }
 }
 

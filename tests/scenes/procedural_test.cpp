@@ -15,7 +15,7 @@ using namespace twinshade;
 
 namespace {
 
-const std::vector<std::string> kBaked = {"courtyard", "spheres", "quad"};
+const std::vector<std::string> kBaked = {"courtyard", "house", "spheres", "quad"};
 
 glm::dvec2 lightmap(const Scene& scene, std::uint32_t vertex) { return glm::dvec2(scene.lightmap_uvs[vertex]); }
 
@@ -337,6 +337,7 @@ TEST_CASE("a scene's hash follows what is drawn, and nothing else") {
 TEST_CASE("built-in scenes have the same bits everywhere") {
   const std::map<std::string, std::string> expected = {
       {"courtyard", "aac2f90926874cf094a4f83ffd7a7c9c4083871b0d85e2fd3693adb0568920e5"},
+      {"house", "07745c8172878ea347a97145da976b4a9342de261a2b81be825fd93d882b29ee"},
       {"spheres", "cba68be232a4bb0140b9a139145dc7338d7fd126c91f21333c7aa05e4744d4ee"},
       {"quad", "15b3988dd50123590399bdd58da97cf740885feb2f231973ea0058aa139595c3"},
       {"raster_torture", "806b1cbbd12c5a59c488452f9fa2b113de3fc801609f1244f7e6c6589599d836"},

@@ -1,6 +1,7 @@
 // What is left of values after they have been stored in texels.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -10,6 +11,8 @@ namespace twinshade {
 enum class TexelStorage { float32, half, unorm8 };
 
 std::string_view texel_storage_name(TexelStorage storage);
+// UserError with the nearest names where there is none.
+TexelStorage find_texel_storage(const std::string& name);
 
 // values: [row * columns + column], finite. Rounded to nearest, ties to even (unorm8: up).
 std::vector<float> through_storage(const std::vector<double>& values, int columns, TexelStorage storage);

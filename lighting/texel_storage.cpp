@@ -1,13 +1,25 @@
-#include "experiments/texel_storage.h"
+#include "lighting/texel_storage.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "base/error.h"
+#include "base/names.h"
+
 namespace twinshade {
 
 std::string_view texel_storage_name(TexelStorage storage) {
   return storage == TexelStorage::float32 ? "float32" : storage == TexelStorage::half ? "half" : "unorm8";
+}
+
+TexelStorage find_texel_storage(const std::string& name) {
+  std::vector<std::string> names;
+  for (const TexelStorage storage : {TexelStorage::float32, TexelStorage::half, TexelStorage::unorm8}) {
+    names.emplace_back(texel_storage_name(storage));
+    if (names.back() == name) return storage;
+  }
+  throw UserError(unknown_name_message("storage", name, names));
 }
 
 float round_to_half(double value) {

@@ -1,0 +1,117 @@
+#include "lighting/pca.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/error.h"
+#include "base/parallel.h"
+
+namespace twinshade {
+namespace {
+
+constexpr std::size_t kBlock = 4096;  // cells
+// Variance below this part of the mean square is rounding.
+constexpr double kNoVariance = 1e-13;
+
+// Calls body(cell, sums) for all cells and adds the sums of blocks in order, whatever the number of threads.
+template <class Body>
+std::vector<double> blockwise_sum(std::size_t cells, std::size_t size, const Body& body) {
+  const std::size_t blocks = (cells + kBlock - 1) / kBlock;
+  std::vector<std::vector<double>> parts(blocks);
+  parallel_for(blocks, [&](std::size_t block, int) {
+    parts[block].assign(size, 0.0);
+    for (std::size_t cell = block * kBlock; cell < std::min(cells, (block + 1) * kBlock); ++cell)
+      body(cell, parts[block].data());
+  });
+  std::vector<double> sum(size, 0.0);
+  for (const std::vector<double>& part : parts)
+    for (std::size_t i = 0; i < size; ++i) sum[i] += part[i];
+  return sum;
+}
+
+}  // namespace
+
+double PrincipalComponents::tail(std::size_t components) const {
+  double sum = 0;
+  for (std::size_t i = dimension; i > components; --i) sum += eigenvalues[i - 1];
+  return sum;
+}
+
+PrincipalComponents principal_components(std::span<const float> values, std::size_t stride, std::size_t dimension,
+                                         std::span<const float> cell_weights, std::size_t components) {
+  TWINSHADE_CHECK_EQ(values.size(), stride * cell_weights.size());
+  TWINSHADE_CHECK_LE(dimension, stride);
+  const std::size_t cells = cell_weights.size(), n = dimension;
+  PrincipalComponents out;
+  out.dimension = n;
+  out.mean.assign(n, 0.0);
+  out.vectors.assign(components * n, 0.0);
+  out.eigenvalues.assign(n, 0.0);
+
+  // Weight, then weighted sum and sum of squares
+  const std::vector<double> first = blockwise_sum(cells, 1 + n, [&](std::size_t cell, double* sum) {
+    const double weight = cell_weights[cell];
+    if (weight == 0) return;
+    sum[0] += weight;
+    for (std::size_t k = 0; k < n; ++k) sum[1 + k] += weight * values[cell * stride + k];
+  });
+  for (const double value : first)
+    if (!std::isfinite(value)) throw UserError("principal components: a value or a weight is not finite");
+  if (!(first[0] > 0)) return out;
+  for (std::size_t k = 0; k < n; ++k) out.mean[k] = first[1 + k] / first[0];
+
+  const std::vector<double> second = blockwise_sum(cells, n * n, [&](std::size_t cell, double* sum) {
+    const double weight = cell_weights[cell];
+    if (weight == 0) return;
+    const float* value = values.data() + cell * stride;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double difference = weight * (value[i] - out.mean[i]);
+      for (std::size_t k = 0; k <= i; ++k) sum[i * n + k] += difference * (value[k] - out.mean[k]);
+    }
+  });
+  Eigen::MatrixXd covariance(n, n);
+  double mean_square = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    mean_square += out.mean[i] * out.mean[i];
+    for (std::size_t k = 0; k <= i; ++k)
+      covariance(Eigen::Index(i), Eigen::Index(k)) = covariance(Eigen::Index(k), Eigen::Index(i)) =
+          second[i * n + k] / first[0];
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);  // ascending
+  const double least = kNoVariance * (mean_square + covariance.trace());
+  for (std::size_t m = 0; m < n; ++m) {
+    const Eigen::Index column = Eigen::Index(n - 1 - m);
+    const double eigenvalue = solver.eigenvalues()(column);
+    if (!(eigenvalue > least)) break;
+    out.eigenvalues[m] = eigenvalue;
+    if (m >= components) continue;
+    const auto vector = solver.eigenvectors().col(column);
+    Eigen::Index largest = 0;
+    for (Eigen::Index k = 1; k < Eigen::Index(n); ++k)
+      if (std::abs(vector(k)) > std::abs(vector(largest))) largest = k;
+    for (std::size_t k = 0; k < n; ++k)
+      out.vectors[m * n + k] = vector(largest) < 0 ? -vector(Eigen::Index(k)) : vector(Eigen::Index(k));
+  }
+  return out;
+}
+
+std::vector<float> PrincipalComponents::project(std::span<const float> values, std::size_t stride,
+                                                std::size_t components) const {
+  TWINSHADE_CHECK_LE(components, count());
+  const std::size_t cells = stride == 0 ? 0 : values.size() / stride;
+  std::vector<float> weights(cells * components);
+  parallel_for((cells + kBlock - 1) / kBlock, [&](std::size_t block, int) {
+    for (std::size_t cell = block * kBlock; cell < std::min(cells, (block + 1) * kBlock); ++cell)
+      for (std::size_t m = 0; m < components; ++m) {
+        double sum = 0;
+        for (std::size_t k = 0; k < dimension; ++k)
+          sum += vectors[m * dimension + k] * (values[cell * stride + k] - mean[k]);
+        weights[cell * components + m] = float(sum);
+      }
+  });
+  return weights;
+}
+
+}  // namespace twinshade

@@ -1,0 +1,33 @@
+// Principal components of a field of vectors, each with a weight: Sloan, Hall, Hart and Snyder, Clustered Principal
+// Components for Precomputed Radiance Transfer, 2003, for one cluster; Iwanicki and Sloan, Normal Mapping with
+// Low-Frequency Precomputed Visibility, JGT 2012, section 3.2.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace twinshade {
+
+// value = mean + sum over m of weight_m * vector_m.
+struct PrincipalComponents {
+  std::size_t dimension = 0;
+  std::vector<double> mean;         // [dimension]
+  std::vector<double> vectors;      // [component * dimension + k]: orthonormal, most variance first
+  std::vector<double> eigenvalues;  // [dimension]: of the weighted covariance, none below zero, descending
+
+  std::size_t count() const { return dimension == 0 ? 0 : vectors.size() / dimension; }
+  // Mean squared error (weighted, summed over dimensions) of using the first `components`.
+  double tail(std::size_t components) const;
+  // weights[cell * components + m] of values[cell * stride + k], for the first `components` vectors.
+  std::vector<float> project(std::span<const float> values, std::size_t stride, std::size_t components) const;
+};
+
+// values[cell * stride + k], k < dimension <= stride; cell_weights: not negative, cells of weight 0 do not count.
+// components vectors are returned; those beyond the rank of the data, or beyond the dimension, are zero, so that their
+// weights are zero too. A vector's sign: its component of largest magnitude is positive (the first of equals). No cell
+// of positive weight: all is zero. UserError where a counted value is not finite.
+PrincipalComponents principal_components(std::span<const float> values, std::size_t stride, std::size_t dimension,
+                                         std::span<const float> cell_weights, std::size_t components);
+
+}  // namespace twinshade

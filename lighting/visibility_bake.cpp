@@ -1,0 +1,299 @@
+// Rays are stratified over the sphere in world space, so that their SH values are computed once for a few sets of
+// directions and a cell's coefficients are a sum over the directions in which it sees out.
+#include "lighting/visibility_bake.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/hash.h"
+#include "base/parallel.h"
+#include "base/portable_math.h"
+#include "lighting/bake_cache.h"
+#include "lighting/direction_sets.h"
+#include "lighting/fill.h"
+#include "lighting/progress.h"
+#include "lighting/radiance_basis.h"
+#include "lighting/random.h"
+#include "lighting/ray_scene.h"
+#include "lighting/receivers.h"
+
+namespace twinshade {
+namespace {
+
+// Raise when the same inputs give another bake.
+constexpr int kBakeVersion = 1;
+constexpr std::size_t kChunk = 64;  // receivers handed to a thread at a time
+constexpr int kGutter = 8;          // texels
+// A receiver that sees out in no more than this part of its rays may be inside something; it is, if more than this part
+// of a few closest hits are back faces.
+constexpr double kInsideShare = 0.5;
+constexpr std::uint32_t kInsideRays = 64;
+
+enum RandomDomain : std::uint64_t { kChooseSet = 32, kScramble, kJitter, kChooseInside };
+
+// Directions of the whole sphere, one in each of `rays` bands of equal solid angle and evenly over azimuth, with their
+// SH values.
+class SphereSets {
+ public:
+  SphereSets(std::uint32_t rays, std::uint64_t seed) : rays_(rays) {
+    // As many sets as fit a few megabytes: neighbouring texels almost never share one.
+    count_ = std::clamp<std::uint32_t>(65536u / rays, 16u, 4096u);
+    std::vector<glm::dvec3> exact;
+    exact.reserve(std::size_t(count_) * rays);
+    for (std::uint32_t set = 0; set < count_; ++set) {
+      const std::uint32_t scramble = std::uint32_t(random_bits(seed, kScramble, set));
+      for (std::uint32_t ray = 0; ray < rays; ++ray) {
+        const double a = (ray + unit_real(random_bits(seed, kJitter, set, ray))) / rays;
+        exact.push_back(hemisphere_direction(1 - 2 * a, scrambled_radical_inverse(ray, scramble) * 0x1p-32));
+      }
+    }
+    const std::vector<double> values = radiance_basis(exact, kVisibilityCount);
+    directions_.assign(exact.begin(), exact.end());
+    values_.assign(values.begin(), values.end());
+  }
+
+  std::uint32_t count() const { return count_; }
+  const glm::vec3* directions(std::uint32_t set) const { return directions_.data() + std::size_t(set) * rays_; }
+  // kVisibilityCount floats a ray.
+  const float* values(std::uint32_t set) const { return values_.data() + std::size_t(set) * rays_ * kVisibilityCount; }
+  std::size_t bytes() const { return directions_.size() * sizeof(glm::vec3) + values_.size() * sizeof(float); }
+
+ private:
+  std::uint32_t rays_, count_;
+  std::vector<glm::vec3> directions_;
+  std::vector<float> values_;
+};
+
+// Square metres that each receiver stands for: a texel by its triangle's scale, a vertex by a third of its triangles.
+void measure_areas(const Scene& scene, const Receivers& receivers, std::vector<float>& area) {
+  const auto triangle_area = [&](std::size_t t) {
+    const std::uint32_t* v = scene.indices.data() + 3 * t;
+    const glm::dvec3 a(scene.positions[v[0]]), b(scene.positions[v[1]]), c(scene.positions[v[2]]);
+    const glm::dvec3 cross = glm::cross(b - a, c - a);
+    const double value = 0.5 * std::sqrt(glm::dot(cross, cross));
+    return std::isfinite(value) ? value : 0;
+  };
+  if (receivers.storage == CoefficientStorage::vertex) {
+    std::vector<double> sum(area.size(), 0);
+    for (std::size_t t = 0; t < scene.triangle_count(); ++t)
+      for (int k = 0; k < 3; ++k) sum[scene.indices[3 * t + k]] += triangle_area(t) / 3;
+    for (const Receiver& receiver : receivers.list) area[receiver.cell] = float(sum[receiver.cell]);
+    return;
+  }
+  const double texel = 1.0 / (double(receivers.width) * receivers.height);
+  for (const Receiver& receiver : receivers.list) {
+    const std::size_t t = receivers.sites[receiver.first_site].triangle;
+    const std::uint32_t* v = scene.indices.data() + 3 * t;
+    const glm::dvec2 a(scene.lightmap_uvs[v[0]]), b(scene.lightmap_uvs[v[1]]), c(scene.lightmap_uvs[v[2]]);
+    const glm::dvec2 e1 = b - a, e2 = c - a;
+    const double in_map = 0.5 * std::abs(e1.x * e2.y - e1.y * e2.x), world = triangle_area(t);
+    // A triangle smaller than a texel is all that its texel shows
+    area[receiver.cell] = float(in_map > texel ? world * texel / in_map : world);
+  }
+}
+
+class Baker {
+ public:
+  Baker(const Scene& scene, const VisibilityOptions& options)
+      : scene_(scene),
+        options_(options),
+        rays_(scene),
+        receivers_(options.per_vertex || scene.lightmap_uvs.empty()
+                       ? vertex_receivers(scene, rays_)
+                       : lightmap_receivers(scene, rays_, options.lightmap_size)),
+        sets_(options.rays, options.seed) {
+    out_.storage = receivers_.storage;
+    out_.width = receivers_.width, out_.height = receivers_.height;
+    out_.sh.assign(out_.cells() * kVisibilityCount, 0.0f);
+    out_.ambient.assign(out_.cells(), 0.0f);
+    out_.area.assign(out_.cells(), 0.0f);
+    known_.assign(out_.cells(), 0);
+  }
+
+  VisibilityBake run() {
+    const auto start = std::chrono::steady_clock::now();
+    const std::size_t count = receivers_.list.size(), chunks = (count + kChunk - 1) / kChunk;
+    std::atomic<std::uint64_t> traced{0};
+    {
+      Progress progress("bake: visibility", "rays", count * options_.rays, options_.show_progress);
+      parallel_for(chunks, [&](std::size_t chunk, int) {
+        const std::size_t first = chunk * kChunk, last = std::min(count, first + kChunk);
+        std::uint64_t rays = 0;
+        for (std::size_t i = first; i < last; ++i) rays += look_around(receivers_.list[i]);
+        traced += rays;
+        progress.add((last - first) * options_.rays);
+      });
+    }
+    measure_areas(scene_, receivers_, out_.area);
+    const FillPlan fill = receivers_.storage == CoefficientStorage::lightmap
+                              ? FillPlan::lightmap(known_, receivers_, kGutter)
+                              : FillPlan::vertices(known_, receivers_, scene_);
+    fill.apply(out_.sh, kVisibilityCount);
+    fill.apply(out_.ambient, 1);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    out_.rays_per_second = double(traced) / seconds;
+    out_.memory_bytes = sets_.bytes() + receivers_.list.size() * sizeof(Receiver) +
+                        receivers_.sites.size() * sizeof(Site) +
+                        receivers_.receiver_of_cell.size() * sizeof(std::uint32_t) + known_.size() +
+                        (out_.sh.size() + out_.ambient.size() + out_.area.size()) * sizeof(float);
+    return std::move(out_);
+  }
+
+ private:
+  // Returns the number of rays traced.
+  std::uint64_t look_around(const Receiver& receiver) {
+    const std::uint32_t set = std::uint32_t(random_bits(options_.seed, kChooseSet, receiver.cell) % sets_.count());
+    const glm::vec3* directions = sets_.directions(set);
+    const float* values = sets_.values(set);
+    // In float for a few rays, then in double
+    float part[kVisibilityCount] = {};
+    double sum[kVisibilityCount] = {}, above = 0, seen = 0;
+    std::uint64_t traced = 0, open = 0;
+    int pending = 0;
+    const auto flush = [&] {
+      for (int k = 0; k < kVisibilityCount; ++k) sum[k] += part[k], part[k] = 0;
+      pending = 0;
+    };
+    for (std::uint32_t ray = 0; ray < options_.rays; ++ray) {
+      const Site& site = site_of(receiver, ray);
+      const glm::vec3& direction = directions[ray];
+      const double cosine = glm::dot(glm::dvec3(direction), glm::dvec3(site.geometric_normal));
+      if (!(cosine > 0)) continue;
+      above += cosine;
+      ++traced;
+      if (rays_.occluded(site.origin, direction, site.triangle)) continue;
+      ++open;
+      seen += cosine;
+      for (int k = 0; k < kVisibilityCount; ++k) part[k] += values[std::size_t(ray) * kVisibilityCount + k];
+      if (++pending == 64) flush();
+    }
+    flush();
+    float* sh = out_.sh.data() + std::size_t(receiver.cell) * kVisibilityCount;
+    for (int k = 0; k < kVisibilityCount; ++k) sh[k] = float(sum[k] * (4 * portable::kPi / options_.rays));
+    out_.ambient[receiver.cell] = above > 0 ? float(seen / above) : 0.0f;
+    known_[receiver.cell] = double(open) > (1 - kInsideShare) * double(traced) || !is_inside(receiver, directions);
+    return traced;
+  }
+
+  // Rays with numbers in step share a part of the azimuth, so sites and samples are dealt by a hash.
+  const Site& site_of(const Receiver& receiver, std::uint32_t ray) const {
+    return receivers_.sites[receiver.first_site + (ray * 0x9e3779b1u >> 16) % receiver.site_count];
+  }
+
+  bool is_inside(const Receiver& receiver, const glm::vec3* directions) const {
+    const std::uint32_t step = std::max(1u, options_.rays / kInsideRays);
+    std::uint32_t tried = 0, back = 0;
+    for (std::uint32_t ray = 0; ray < options_.rays; ++ray) {
+      if (random_bits(options_.seed, kChooseInside, ray) % step != 0) continue;
+      const Site& site = site_of(receiver, ray);
+      if (!(glm::dot(directions[ray], site.geometric_normal) > 0)) continue;
+      ++tried;
+      const RayHit hit = rays_.closest(site.origin, directions[ray], site.triangle);
+      back += hit.triangle != kNoTriangle && !hit.front;
+    }
+    return back > kInsideShare * tried;
+  }
+
+  const Scene& scene_;
+  const VisibilityOptions& options_;
+  const RayScene rays_;
+  const Receivers receivers_;
+  const SphereSets sets_;
+  std::vector<std::uint8_t> known_;  // by cell
+  VisibilityBake out_;
+};
+
+// Layout of a cached bake: magic, storage, width, height (u32 each), sh, ambient, area of all cells as f32, SHA-256 of
+// all before it as 64 hex digits.
+static_assert(std::endian::native == std::endian::little);
+constexpr std::uint32_t kMagic = 0x31564254;  // "TBV1"
+constexpr std::size_t kCellFloats = kVisibilityCount + 2;
+
+std::string serialize(const VisibilityBake& bake) {
+  const std::uint32_t header[] = {kMagic, std::uint32_t(bake.storage), bake.width, bake.height};
+  std::string bytes(reinterpret_cast<const char*>(header), sizeof header);
+  for (const std::vector<float>* values : {&bake.sh, &bake.ambient, &bake.area})
+    bytes.append(reinterpret_cast<const char*>(values->data()), values->size() * sizeof(float));
+  return bytes + sha256_hex(bytes);
+}
+
+bool deserialize(std::string_view bytes, VisibilityBake& bake) {
+  std::uint32_t header[4];
+  if (bytes.size() < sizeof header + kBakeHashLength) return false;
+  const std::string_view content = bytes.substr(0, bytes.size() - kBakeHashLength);
+  bake.hash = bytes.substr(content.size());
+  if (sha256_hex(content) != bake.hash) return false;
+  std::memcpy(header, content.data(), sizeof header);
+  if (header[0] != kMagic || header[1] > 1) return false;
+  bake.storage = CoefficientStorage(header[1]);
+  bake.width = header[2], bake.height = header[3];
+  if (content.size() != sizeof header + bake.cells() * kCellFloats * sizeof(float)) return false;
+  const char* from = content.data() + sizeof header;
+  const auto take = [&](std::vector<float>& values, std::size_t count) {
+    values.resize(count);
+    std::memcpy(values.data(), from, count * sizeof(float));
+    from += count * sizeof(float);
+  };
+  take(bake.sh, bake.cells() * kVisibilityCount);
+  take(bake.ambient, bake.cells());
+  take(bake.area, bake.cells());
+  return true;
+}
+
+bool find_cached(const std::string& key, VisibilityBake& bake) {
+  try {
+    const std::string path = bake_cache_path(key);
+    if (!std::filesystem::exists(path)) return false;
+    if (deserialize(read_file(path), bake)) return true;
+    std::fprintf(stderr, "twinshade: cached bake %s is damaged: baking again\n", path.c_str());
+  } catch (const UserError& error) {
+    std::fprintf(stderr, "twinshade: bake cache not used: %s\n", error.what());
+  }
+  return false;
+}
+
+void check(const char* name, std::uint32_t value, std::uint32_t highest) {
+  if (value < 1 || value > highest)
+    throw UserError(std::string(name) + ": " + std::to_string(value) + " is not within 1 to " +
+                    std::to_string(highest));
+}
+
+}  // namespace
+
+VisibilityBake bake_visibility(const Scene& scene, const VisibilityOptions& options) {
+  check("lightmap size", options.lightmap_size, 4096);
+  check("visibility rays", options.rays, 65536);
+  if (scene.procedural_coefficients)
+    throw UserError(scene.name + ": has no surfaces in world space to bake visibility for");
+  const std::vector<std::pair<std::string, std::string>> notes = {
+      {"visibility_scene_hash", scene_hash(scene)},
+      {"visibility_lightmap_size",
+       options.per_vertex || scene.lightmap_uvs.empty() ? "per vertex" : std::to_string(options.lightmap_size)},
+      {"visibility_rays", std::to_string(options.rays)},
+      {"visibility_seed", std::to_string(options.seed)},
+      {"visibility_basis", radiance_basis_hash(kVisibilityCount)},
+      {"visibility_version", std::to_string(kBakeVersion)}};
+  std::string all;
+  for (const auto& [name, value] : notes) all += name + "=" + value + "\n";
+  const std::string key = sha256_hex(all);
+
+  VisibilityBake bake;
+  if (!options.use_cache || !find_cached(key, bake)) {
+    bake = Baker(scene, options).run();
+    const std::string bytes = serialize(bake);
+    bake.hash = bytes.substr(bytes.size() - kBakeHashLength);
+    if (options.use_cache) keep_bake(key, bytes);
+  }
+  bake.notes = notes;
+  bake.notes.emplace_back("visibility_hash", bake.hash);
+  return bake;
+}
+
+}  // namespace twinshade

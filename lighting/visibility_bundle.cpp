@@ -1,0 +1,188 @@
+#include "lighting/visibility_bundle.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/error.h"
+#include "base/portable_math.h"
+#include "lighting/light_tables.h"
+#include "lighting/pca.h"
+#include "lighting/radiance_basis.h"
+
+namespace twinshade {
+namespace {
+
+constexpr int kMostOrder = 6;
+constexpr std::size_t kAluCosine = 9;  // coefficients that visibility_pca_alu.glsl convolves
+
+std::size_t square(int order) { return std::size_t(order) * std::size_t(order); }
+
+template <class Vector>
+void add_attribute(Bundle& bundle, const char* name, const std::vector<Vector>& values) {
+  if (bundle.find_attribute(name)) return;
+  Attribute out{name, Scalar::f32, std::uint32_t(Vector::length()), {}};
+  for (const Vector& value : values)
+    for (int c = 0; c < Vector::length(); ++c) out.values.push_back(value[c]);
+  out.values.resize(bundle.vertex_count() * Vector::length(), 0.0f);
+  bundle.attributes.push_back(std::move(out));
+}
+
+class Adder {
+ public:
+  Adder(Bundle& bundle, std::span<const VisibilityBake> bakes, std::span<const double> radiance,
+        std::span<const LitTechnique> wanted, const VisibilityLighting& options)
+      : bundle_(bundle), bakes_(bakes), radiance_(radiance), options_(options) {
+    for (const LitTechnique& lit : wanted)
+      if (lit.technique->weights != VisibilityWeights::none) wanted_.push_back(lit);
+  }
+
+  void run() {
+    // The principal components serve every count: fewer are the first of more
+    std::size_t most = 0;
+    for (const VisibilityBake& bake : bakes_) most = std::max(most, most_weights(VisibilityWeights::pca, bake.storage));
+    if (most > 0)
+      components_ = principal_components(bakes_[0].sh, kVisibilityCount, square(options_.order), bakes_[0].area, most);
+    for (const VisibilityBake& bake : bakes_)
+      for (const VisibilityWeights weights :
+           {VisibilityWeights::sh, VisibilityWeights::pca, VisibilityWeights::ambient})
+        if (const std::size_t count = most_weights(weights, bake.storage)) add_weights(bake, weights, count);
+    for (const LitTechnique& lit : wanted_) {
+      if (reads_sphere_map(*lit.technique))
+        for (const SphereMapInfo* map : options_.maps) add_tables(*lit.technique, *map);
+      else
+        add_uniforms(*lit.technique);
+    }
+  }
+
+ private:
+  std::size_t most_weights(VisibilityWeights weights, CoefficientStorage storage) const {
+    std::size_t most = 0;
+    for (const LitTechnique& lit : wanted_)
+      if (lit.technique->weights == weights && lit.storage == storage)
+        most = std::max(most, std::size_t(lit.technique->count));
+    return most;
+  }
+
+  // values[cell * count + i]
+  std::vector<float> weights_of(const VisibilityBake& bake, VisibilityWeights weights, std::size_t count) const {
+    if (weights == VisibilityWeights::ambient) return bake.ambient;
+    if (weights == VisibilityWeights::pca) return components_->project(bake.sh, kVisibilityCount, count);
+    std::vector<float> values(bake.cells() * count);
+    for (std::size_t cell = 0; cell < bake.cells(); ++cell)
+      std::copy_n(bake.sh.data() + cell * kVisibilityCount, count, values.data() + cell * count);
+    return values;
+  }
+
+  void add_weights(const VisibilityBake& bake, VisibilityWeights weights, std::size_t count) {
+    const std::vector<float> exact = weights_of(bake, weights, count);
+    const std::vector<float> values = through_storage({exact.begin(), exact.end()}, int(count), options_.storage);
+    const std::size_t cells = bake.cells(), quads = (count + 3) / 4;
+    const auto weight = [&](std::size_t cell, std::size_t i) { return i < count ? values[cell * count + i] : 0.0f; };
+    const std::string name = visibility_name(weights);
+    if (bake.storage == CoefficientStorage::vertex) {
+      for (std::size_t quad = 0; quad < quads; ++quad) {
+        Attribute attribute{fmt::format("{}[{}]", name, quad), Scalar::f32, 4, std::vector<float>(cells * 4)};
+        for (std::size_t i = 0; i < cells * 4; ++i) attribute.values[i] = weight(i / 4, quad * 4 + i % 4);
+        bundle_.attributes.push_back(std::move(attribute));
+      }
+      return;
+    }
+    Texture texture;
+    texture.name = name;
+    texture.kind = TextureKind::two_d_array;
+    texture.width = bake.width, texture.height = bake.height, texture.layers = std::uint32_t(quads);
+    texture.texels.resize(quads * cells * 4);
+    for (std::size_t quad = 0; quad < quads; ++quad)
+      for (std::size_t i = 0; i < cells * 4; ++i)
+        texture.texels[quad * cells * 4 + i] = weight(i / 4, quad * 4 + i % 4);
+    bundle_.textures.push_back(std::move(texture));
+  }
+
+  // Rows of light times the components' mean and vectors, as SH of the components' order.
+  std::vector<double> light_times_components() const {
+    std::vector<double> rows = components_->mean;
+    rows.insert(rows.end(), components_->vectors.begin(), components_->vectors.end());
+    return light_times_vectors(radiance_, rows, options_.order);
+  }
+
+  void add_tables(const TechniqueInfo& technique, const SphereMapInfo& map) {
+    const std::string name = light_tables_name(technique, map);
+    if (bundle_.find_texture(name)) return;
+    int order = kMostOrder;
+    std::vector<double> products;
+    if (technique.tables == "pca") {
+      order = options_.order;
+      products = light_times_components();
+    } else if (technique.tables == "preconv") {
+      // Light as it is: all is visible
+      for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t k = 0; k < square(order); ++k) products.push_back(radiance_[k * 3 + c]);
+    } else {
+      order = int(std::lround(std::sqrt(double(technique.count))));
+      products = light_times_harmonics(radiance_, order);
+    }
+    const LightTableMap tables(map, options_.map_width, order);
+    bundle_.textures.push_back(light_table_texture(name, tables.tables(products), map, options_.map_width));
+  }
+
+  void add_uniforms(const TechniqueInfo& technique) {
+    if (technique.weights == VisibilityWeights::sh) {
+      if (bundle_.find_uniform("light_sh2")) return;
+      Uniform light{"light_sh2", Scalar::f32, 1, 3, 4, {}};
+      for (std::size_t i = 0; i < 12; ++i) light.values.push_back(float(radiance_[i]));
+      bundle_.uniforms.push_back(std::move(light));
+      return;
+    }
+    if (bundle_.find_uniform("light_components")) return;
+    const std::vector<double> products = light_times_components();
+    const std::size_t n = square(options_.order), rows = std::size_t(technique.count) + 1;
+    Uniform light{"light_components", Scalar::f32, 1, 3, std::uint32_t(rows * kAluCosine), {}};
+    for (std::size_t row = 0; row < rows; ++row)
+      for (std::size_t k = 0; k < kAluCosine; ++k)
+        for (std::size_t c = 0; c < 3; ++c)
+          light.values.push_back(k < n ? float(products[(row * 3 + c) * n + k]) : 0.0f);
+    bundle_.uniforms.push_back(std::move(light));
+  }
+
+  Bundle& bundle_;
+  const std::span<const VisibilityBake> bakes_;
+  const std::span<const double> radiance_;
+  const VisibilityLighting& options_;
+  std::vector<LitTechnique> wanted_;
+  std::optional<PrincipalComponents> components_;
+};
+
+}  // namespace
+
+void add_visibility(Bundle& bundle, const Scene& scene, std::span<const VisibilityBake> bakes,
+                    std::span<const double> radiance, std::span<const LitTechnique> wanted,
+                    const VisibilityLighting& options) {
+  if (options.order < 2 || options.order > kMostOrder)
+    throw UserError(fmt::format("visibility order {}: must be from 2 to {}", options.order, kMostOrder));
+  TWINSHADE_CHECK_EQ(radiance.size(), square(kMostOrder) * 3);
+  if (bakes.empty()) return;
+  add_attribute(bundle, "v_normal", scene.normals);
+  add_attribute(bundle, "v_tangent", scene.tangents);
+  for (const VisibilityBake& bake : bakes) {
+    if (bake.storage == CoefficientStorage::lightmap)
+      add_attribute(bundle, "v_lightmap_uv", scene.lightmap_uvs);
+    else
+      TWINSHADE_CHECK_EQ(bake.cells(), bundle.vertex_count());
+  }
+  Adder(bundle, bakes, radiance, wanted, options).run();
+
+  for (const VisibilityBake& bake : bakes)
+    for (const auto& [key, value] : bake.notes)
+      bundle.notes.emplace_back(fmt::format("{}_{}", storage_name(bake.storage), key), value);
+  std::string maps;
+  for (const SphereMapInfo* map : options.maps) maps += fmt::format("{}{}", maps.empty() ? "" : " ", map->name);
+  bundle.notes.emplace_back("maps", maps);
+  bundle.notes.emplace_back("map_width", std::to_string(options.map_width));
+  bundle.notes.emplace_back("visibility_order", std::to_string(options.order));
+  bundle.notes.emplace_back("visibility_storage", std::string(texel_storage_name(options.storage)));
+}
+
+}  // namespace twinshade

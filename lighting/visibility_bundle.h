@@ -1,0 +1,31 @@
+// What the shaders of precomputed-visibility techniques read, added to a bundle.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "bundle/bundle.h"
+#include "lighting/bake.h"
+#include "lighting/registry.h"
+#include "lighting/sphere_maps.h"
+#include "lighting/texel_storage.h"
+#include "lighting/visibility_bake.h"
+
+namespace twinshade {
+
+struct VisibilityLighting {
+  std::vector<const SphereMapInfo*> maps;        // of the L x H tables: those that shaders will be drawn with
+  int map_width = 32;                            // 1 to 4096
+  int order = 6;                                 // of the visibility whose principal components are taken, 2 to 6
+  TexelStorage storage = TexelStorage::float32;  // of the weights
+};
+
+// Weights, tables and uniforms of those of `wanted` that store visibility, each from its storage; normals, tangents and
+// lightmap coordinates where the bundle lacks them; notes. bakes: one of each storage that is needed; the principal
+// components are those of the first. radiance: of the environment, real SH l <= 5 in world space,
+// [j * 3 + c]. UserError where a width or an order is out of range.
+void add_visibility(Bundle& bundle, const Scene& scene, std::span<const VisibilityBake> bakes,
+                    std::span<const double> radiance, std::span<const LitTechnique> wanted,
+                    const VisibilityLighting& options);
+
+}  // namespace twinshade

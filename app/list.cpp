@@ -14,6 +14,7 @@
 #include "cpu_shaders/runtime/machine.h"
 #include "experiments/basis_cost.h"
 #include "lighting/registry.h"
+#include "lighting/sphere_maps.h"
 #include "scenes/environment.h"
 #include "scenes/scene.h"
 
@@ -28,6 +29,22 @@ struct Listing {
 
 const char* domain_name(Domain domain) {
   return domain == Domain::hemisphere ? "hemisphere" : domain == Domain::sphere ? "sphere" : "either";
+}
+
+Listing list_maps() {
+  Listing listing;
+  listing.table.column("map");
+  listing.table.column("layers", Table::Align::right);
+  listing.table.column("source");
+  for (const SphereMapInfo& map : sphere_maps()) {
+    const std::string name(map.name), source(map.source);
+    listing.table.row({name, std::to_string(map.layers), source});
+    listing.json.push_back({{"name", name},
+                            {"layers", map.layers},
+                            {"file", "shaders/sphere_map/" + std::string(map.file)},
+                            {"source", source}});
+  }
+  return listing;
 }
 
 Listing list_techniques() {
@@ -200,7 +217,7 @@ struct ListVerb {
   std::vector<std::string> kinds;
 
   int run() const {
-    static const std::vector<std::string> all{"techniques", "bases", "scenes", "environments", "backends"};
+    static const std::vector<std::string> all{"techniques", "bases", "maps", "scenes", "environments", "backends"};
     apply(common);
     const Output output(common);
     for (const std::string& kind : kinds)
@@ -213,6 +230,7 @@ struct ListVerb {
       if (!wanted) continue;
       const Listing listing = kind == "techniques"     ? list_techniques()
                               : kind == "bases"        ? list_bases(output)
+                              : kind == "maps"         ? list_maps()
                               : kind == "scenes"       ? list_scenes()
                               : kind == "environments" ? list_environments()
                                                        : list_backends(output);
@@ -230,7 +248,7 @@ struct ListVerb {
 Verb add_list(CLI::App& app) {
   CLI::App* command = app.add_subcommand("list", "what there is to draw, to draw with and to draw on");
   const auto verb = std::make_shared<ListVerb>();
-  command->add_option("kind", verb->kinds, "techniques, bases, scenes, environments, backends (default: all)")
+  command->add_option("kind", verb->kinds, "techniques, bases, maps, scenes, environments, backends (default: all)")
       ->delimiter(',')
       ->type_name("KIND");
   add_common_options(*command, verb->common);

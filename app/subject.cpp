@@ -50,15 +50,14 @@ bool can_keep(const Scene& scene, const TechniqueInfo& technique, CoefficientSto
   return can_keep(scene, storage) && !(stores_visibility(technique) && scene.procedural_coefficients);
 }
 
-// Registry order, each once.
+// Registry order, each once. UserError with the nearest names.
 std::vector<const SphereMapInfo*> chosen_maps(const ShadingOptions& options) {
   std::vector<const SphereMapInfo*> chosen;
-  for (const SphereMapInfo& map : sphere_maps())
-    for (const std::string& name : options.maps)
-      if (name == "all" || &find_sphere_map(name) == &map) {
-        chosen.push_back(&map);
-        break;
-      }
+  for (const std::string& name : options.maps)
+    for (const SphereMapInfo& map : sphere_maps())
+      if (name == "all" || &map == &find_sphere_map(name)) chosen.push_back(&map);
+  std::sort(chosen.begin(), chosen.end());
+  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
   return chosen;
 }
 
@@ -243,6 +242,7 @@ Subject load_subject(const SubjectOptions& options, const ShadingOptions& shadin
   const std::string text = own_shader ? load_shader(shading.shader).text : "";
   const std::vector<const TechniqueInfo*> chosen =
       own_shader ? std::vector<const TechniqueInfo*>() : chosen_techniques(shading);
+  chosen_maps(shading);
   Subject subject;
   if (is_bundle_file(options.scene)) {
     subject.bundle = bundle_from_file(options);

@@ -25,8 +25,7 @@ struct Subject {
 struct Shading {
   std::string technique;  // as on the command line; a user's shader: its path
   std::string light;      // where it reads its coefficients, as on the command line; a user's shader: empty
-
-  std::string map;  // sphere map of the tables that it looks up; empty: none
+  std::string map;        // sphere map of the tables that it looks up; empty: none
   ShaderSource source;
 
   std::string label() const {

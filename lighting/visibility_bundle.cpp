@@ -16,6 +16,7 @@ namespace twinshade {
 namespace {
 
 constexpr int kMostOrder = 6;
+constexpr double kMostTableBytes = 0x1p31;
 constexpr std::size_t kAluCosine = 9;  // coefficients that visibility_pca_alu.glsl convolves
 
 std::size_t square(int order) { return std::size_t(order) * std::size_t(order); }
@@ -124,6 +125,10 @@ class Adder {
       order = int(std::lround(std::sqrt(double(technique.count))));
       products = light_times_harmonics(radiance_, order);
     }
+    const double bytes = double(products.size()) / double(square(order)) / 3 * map.texels(options_.map_width) * 16;
+    if (bytes > kMostTableBytes)
+      throw UserError(fmt::format("map width {}: tables {} would take {:.1f} GiB, more than {:.0f}; make it smaller",
+                                  options_.map_width, name, bytes * 0x1p-30, kMostTableBytes * 0x1p-30));
     const LightTableMap tables(map, options_.map_width, order);
     bundle_.textures.push_back(light_table_texture(name, tables.tables(products), map, options_.map_width));
   }

@@ -85,6 +85,15 @@ TEST_CASE("malformed options are refused") {
   check_refused({"render", "quad", "--lanes", "32"}, {"--lanes", "4, 8 or 16"});
   check_refused({"render", "quad", "--lanes", "4", "--number", "scalar"}, {"--lanes", "--number"});
   check_refused({"render", "quad", "--lightmap", "0"}, {"--lightmap"});
+  check_refused({"render", "quad", "--technique", "unc3", "--map", "cubes"}, {"cubes", "cube"});
+  check_refused({"render", "quad", "--technique", "unc3", "--map-width", "0"}, {"--map-width", "4096"});
+  check_refused({"render", "quad", "--technique", "unc3", "--map-width", "4097"}, {"--map-width", "4096"});
+  check_refused({"render", "quad", "--technique", "pca8", "--order", "7"}, {"--order", "2 to 6"});
+  check_refused({"render", "quad", "--technique", "pca8", "--visibility-rays", "0"}, {"--visibility-rays"});
+  check_refused({"render", "quad", "--technique", "pca8", "--visibility-storage", "halves"}, {"halves", "half"});
+  check_refused({"render", "quad", "--env2", "skies"}, {"skies", "sky"});
+  check_refused({"render", "quad", "--env2", "studio", "--blend", "1.5"}, {"--blend", "0 to 1"});
+  check_refused({"render", "raster_torture", "--technique", "unc3", "--size", "32x32"}, {"unc3"});
   check_refused({"render", "quad", "--rays", "0"}, {"--rays"});
   check_refused({"render", "quad", "--albedo", "yes"}, {"--albedo", "on or off"});
   check_refused({"render", "quad", "--exposure", "nan"}, {"--exposure", "finite"});

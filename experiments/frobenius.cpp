@@ -43,6 +43,10 @@ std::vector<double> norms(const Matrix& residual) {
 
 ExperimentResult run_frobenius(const ExperimentOptions& options) {
   const TechniqueInfo& harmonics = find_technique("sh5");
+  // The harmonics' constants are floats, so their lengths are off by some 1e-8: more than the last digits of a small
+  // norm.
+  const std::vector<double> harmonics_gram = gram_matrix(harmonics, Domain::sphere);
+  const Eigen::LLT<Matrix> lengths(Eigen::Map<const Matrix>(harmonics_gram.data(), harmonics.count, harmonics.count));
   ExperimentResult result{Rows({"basis", "order", "norm", "condition"}), {}, {}};
   HeatMap map{"Frobenius norm of what a basis misses of spherical harmonics",
               "0: all of them lie in its span. Order n: l < n, counted from l = 0.",
@@ -60,10 +64,11 @@ ExperimentResult run_frobenius(const ExperimentOptions& options) {
       continue;
     }
     const std::vector<double> moments = moment_matrix(*basis, harmonics, Domain::sphere);
-    const Matrix products = Eigen::Map<const Matrix>(moments.data(), basis->count, harmonics.count);
+    const Matrix products =
+        lengths.matrixL().solve(Eigen::Map<const Matrix>(moments.data(), basis->count, harmonics.count).transpose());
     const Matrix gram_part = Eigen::Map<const Matrix>(gram.data(), basis->count, basis->count);
     const Matrix residual = Matrix::Identity(harmonics.count, harmonics.count) -
-                            products.transpose() * Matrix(gram_part.llt().solve(products));
+                            products * Matrix(gram_part.llt().solve(products.transpose()));
     map.rows.emplace_back(basis->name);
     int order = kLowestOrder;
     for (const double norm : norms(residual)) {

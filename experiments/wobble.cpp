@@ -56,21 +56,18 @@ std::vector<glm::dvec3> normals_about(const glm::dvec3& light) {
 // Of one light.
 struct Shape {
   double peak = 0, position_error = 0;  // largest value, and degrees between it and the light
-  double darkest = 0;                   // smallest value anywhere
-  double ring = 0;                      // height of the ring: see ring_height
+  double ring = 0;                      // how far irradiance falls below zero, in the ring about the dark side's edge
+  double rebound = 0;                   // how high it rises again beyond: see rebound_height
   double asymmetry = 0;                 // root mean square difference from the mean around the light
   std::vector<double> profile;          // mean around the light, by ring
 };
 
-// Going away from the light, the largest value after the first minimum: 0 where it only gets darker.
-double ring_height(const std::vector<double>& values) {
+// Going away from the light, the largest mean around it after the first minimum: 0 where it only gets darker.
+double rebound_height(const std::vector<double>& profile) {
+  int ring = 60 / kRingDegrees;  // nearer the light a dent in the peak would count
+  while (ring + 1 < kRings && profile[std::size_t(ring + 1)] <= profile[std::size_t(ring)]) ++ring;
   double height = 0;
-  for (int spoke = 0; spoke < kSpokes; ++spoke) {
-    const auto at = [&](int ring) { return values[std::size_t(ring * kSpokes + spoke)]; };
-    int ring = 60 / kRingDegrees;  // nearer the light a dent in the peak would count
-    while (ring + 1 < kRings && at(ring + 1) <= at(ring)) ++ring;
-    for (++ring; ring < kRings; ++ring) height = std::max(height, at(ring));
-  }
+  for (++ring; ring < kRings; ++ring) height = std::max(height, profile[std::size_t(ring)]);
   return height;
 }
 
@@ -88,7 +85,7 @@ class Basis {
     Shape shape;
     double weights = 0, squares = 0;
     std::size_t brightest = 0;
-    shape.darkest = values[0];
+    double darkest = values[0];
     for (int ring = 0; ring < kRings; ++ring) {
       double mean = 0;
       for (int spoke = 0; spoke < kSpokes; ++spoke) mean += values[std::size_t(ring * kSpokes + spoke)] / kSpokes;
@@ -97,13 +94,14 @@ class Basis {
       for (int spoke = 0; spoke < kSpokes; ++spoke) {
         const std::size_t i = std::size_t(ring * kSpokes + spoke);
         if (values[i] > values[brightest]) brightest = i;
-        shape.darkest = std::min(shape.darkest, values[i]);
+        darkest = std::min(darkest, values[i]);
         weights += weight;
         squares += weight * (values[i] - mean) * (values[i] - mean);
       }
     }
     shape.asymmetry = std::sqrt(squares / weights);
-    shape.ring = ring_height(values);
+    shape.ring = std::max(0.0, -darkest);
+    shape.rebound = rebound_height(shape.profile);
     const glm::dvec3 peak = climb(coefficients, normals[brightest], values[brightest], shape.peak);
     shape.position_error = portable::acos(glm::dot(peak, light)) * 180 / kPi;
     return shape;
@@ -155,7 +153,7 @@ class Basis {
 
 // Over all lights.
 struct Wobble {
-  double peak_low = 0, peak_high = 0, position_error = 0, darkest = 0, ring_low = 0, ring_high = 0, asymmetry = 0;
+  double peak_low = 0, peak_high = 0, position_error = 0, ring_low = 0, ring_high = 0, rebound = 0, asymmetry = 0;
   std::vector<double> profile;
 };
 
@@ -163,15 +161,14 @@ Wobble wobble(const std::vector<Shape>& shapes) {
   Wobble all;
   all.peak_low = all.ring_low = INFINITY;
   all.peak_high = -INFINITY;
-  all.darkest = INFINITY;
   all.profile.assign(std::size_t(kRings), 0.0);
   for (const Shape& shape : shapes) {
     all.peak_low = std::min(all.peak_low, shape.peak);
     all.peak_high = std::max(all.peak_high, shape.peak);
     all.position_error = std::max(all.position_error, shape.position_error);
-    all.darkest = std::min(all.darkest, shape.darkest);
     all.ring_low = std::min(all.ring_low, shape.ring);
     all.ring_high = std::max(all.ring_high, shape.ring);
+    all.rebound = std::max(all.rebound, shape.rebound);
     all.asymmetry = std::max(all.asymmetry, shape.asymmetry);
     for (std::size_t k = 0; k < all.profile.size(); ++k) all.profile[k] += shape.profile[k] / double(shapes.size());
   }
@@ -184,10 +181,10 @@ Drawing peak_chart(const std::vector<const TechniqueInfo*>& bases, const std::ve
   chart.subtitle = "What each basis makes of max(0, n . light): exact would be a peak of 1 and nothing below 0.";
   chart.value.title = "irradiance, of that facing the light";
   chart.dots = true;
-  chart.bars = {{"lowest peak", {}}, {"highest peak", {}}, {"ring", {}}, {"darkest value", {}}};
+  chart.bars = {{"lowest peak", {}}, {"highest peak", {}}, {"dark ring", {}}, {"rebound", {}}};
   for (std::size_t b = 0; b < bases.size(); ++b) {
     chart.rows.emplace_back(bases[b]->name);
-    const double values[] = {wobbles[b].peak_low, wobbles[b].peak_high, wobbles[b].ring_high, wobbles[b].darkest};
+    const double values[] = {wobbles[b].peak_low, wobbles[b].peak_high, -wobbles[b].ring_high, wobbles[b].rebound};
     for (std::size_t k = 0; k < chart.bars.size(); ++k) chart.bars[k].values.push_back(values[k]);
   }
   return draw(chart);
@@ -222,7 +219,7 @@ ExperimentResult run_wobble(const ExperimentOptions& options) {
   const std::vector<const TechniqueInfo*> bases = chosen_bases(options, why_not_spherical);
   const std::size_t lights = std::size_t(options.samples > 0 ? options.samples : kPublishedLights);
   ExperimentResult result{
-      Rows({"basis", "peak_low", "peak_high", "position_error", "ring_low", "ring_high", "darkest", "asymmetry"}),
+      Rows({"basis", "peak_low", "peak_high", "position_error", "ring_low", "ring_high", "rebound", "asymmetry"}),
       {},
       {}};
   std::vector<Wobble> wobbles;
@@ -234,12 +231,12 @@ ExperimentResult run_wobble(const ExperimentOptions& options) {
     wobbles.push_back(wobble(shapes));
     const Wobble& w = wobbles.back();
     result.rows.add({std::string(info->name), w.peak_low, w.peak_high, w.position_error, w.ring_low, w.ring_high,
-                     w.darkest, w.asymmetry});
+                     w.rebound, w.asymmetry});
   }
   result.notes = {"irradiance of that facing the light; position_error in degrees",
-                  "ring: largest irradiance beyond the first minimum away from the light, its lowest and highest over "
-                  "all lights; asymmetry: largest "
-                  "root mean square difference from rotational symmetry about the light"};
+                  "ring: how far irradiance falls below zero, least and most over all lights; rebound: largest mean "
+                  "around the light beyond that ring; asymmetry: largest root mean square difference from rotational "
+                  "symmetry about the light"};
   if (options.pictures && !bases.empty()) {
     result.pictures.push_back({"wobble", peak_chart(bases, wobbles)});
     result.pictures.push_back({"wobble-profile", profile_chart(bases, wobbles, options)});

@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "experiments/experiment.h"
 #include "lighting/registry.h"
+#include "tests/relative.h"
 
 using namespace twinshade;
 
@@ -77,8 +78,8 @@ TEST_CASE("one impulse in closed form") {
   const Table table = table_of(run_basis_imse(options));
   CHECK(table.at({"hl2", "S1"}).first == doctest::Approx(energy - linear).epsilon(1e-8));
   CHECK(table.at({"h4", "S1"}).first == doctest::Approx(energy - linear - constant).epsilon(1e-8));
-  CHECK(table.at({"sh2", "S1"}).first == doctest::Approx(kPi / 24).epsilon(1e-6));
-  CHECK(table.at({"sh3", "S1"}).first == doctest::Approx(kPi / 384).epsilon(1e-6));
+  CHECK(table.at({"sh2", "S1"}).first == test::relative(kPi / 24, 1e-6));
+  CHECK(table.at({"sh3", "S1"}).first == test::relative(kPi / 384, 1e-6));
 }
 
 TEST_CASE("a sun at 40 degrees is worse for H6 than one at the horizon") {
@@ -87,8 +88,8 @@ TEST_CASE("a sun at 40 degrees is worse for H6 than one at the horizon") {
   options.samples = 1;
   options.bases = {"h6"};
   const Table table = table_of(run_basis_imse(options));
-  CHECK(table.at({"h6", "sun_40"}).first == doctest::Approx(.0374).epsilon(2e-3));
-  CHECK(table.at({"h6", "sun_0"}).first == doctest::Approx(.0119).epsilon(4e-3));
+  CHECK(table.at({"h6", "sun_40"}).first == test::relative(.0374, 2e-3));
+  CHECK(table.at({"h6", "sun_0"}).first == test::relative(.0119, 4e-3));
 }
 
 TEST_CASE("errors are the same on one, two and seven threads") {

@@ -34,7 +34,7 @@ const std::map<std::string, double> kHemisphere = {
     {"hl2", 1}, {"h4", 1}, {"h6", 1}, {"sh2_lsq", 13.9}, {"sh3_lsq", 254}};
 
 bool close(double value, double expected, double relative) {
-  return std::abs(value - expected) <= relative * std::abs(expected) + 1e-6;
+  return std::abs(value - expected) <= relative * std::abs(expected) + 1e-12;
 }
 
 }  // namespace

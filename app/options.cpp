@@ -214,6 +214,17 @@ void add_shading_options(CLI::App& command, ShadingOptions& options, const std::
       ->type_name("MY.frag");
 }
 
+void add_reference_options(CLI::App& command, ShadingOptions& options) {
+  add_parsed(command, "--reference-rays", "N", "rays per pixel of technique reference (default: 1024)",
+             [&](const std::string& text) {
+               options.reference_rays = parse_between<std::uint32_t>("--reference-rays", text, 1, kMostRays);
+             });
+  add_parsed(
+      command, "--reference-order", "N",
+      "light technique reference by the environment's SH of this order (default: 0, the environment itself)",
+      [&](const std::string& text) { options.reference_order = parse_between("--reference-order", text, 0, 6); });
+}
+
 void add_attribute_option(CLI::App& command, AttributeMode& attributes) {
   add_parsed(command, "--attributes", "exact|native", "how attributes are interpolated (default: exact)",
              [&](const std::string& text) {

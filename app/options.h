@@ -68,6 +68,8 @@ struct ShadingOptions {
   std::vector<std::string> techniques;  // "all" or names
   std::string shader;                   // a user's fragment shader, or empty
   LightSource light = LightSource::automatic;
+  std::uint32_t reference_rays = 1024;    // technique reference
+  int reference_order = 0;                // SH order that the environment is cut to for it; 0: as it is
   std::vector<std::string> maps{"cube"};  // "all" or names, for techniques that look up tables
 };
 
@@ -85,6 +87,8 @@ void add_technique_option(CLI::App& command, ShadingOptions& options, const std:
 void add_light_option(CLI::App& command, ShadingOptions& options);
 // --technique, --map, --light and --shader.
 void add_shading_options(CLI::App& command, ShadingOptions& options, const std::string& default_techniques);
+// --reference-rays and --reference-order.
+void add_reference_options(CLI::App& command, ShadingOptions& options);
 void add_attribute_option(CLI::App& command, AttributeMode& attributes);
 // --gl-fma, and --no-host-fma for short.
 void add_fma_option(CLI::App& command, bool& host_fma);

@@ -6,6 +6,7 @@
 #include "app/machines.h"
 #include "app/output.h"
 #include "app/provenance.h"
+#include "app/reference.h"
 #include "app/subject.h"
 #include "base/error.h"
 #include "golden/pictures.h"
@@ -39,12 +40,16 @@ struct RenderVerb {
       require_writable_file(file);
     }
 
-    const Subject ready = load_subject(subject, shading, common, output);
-    const Shading shader = load_shadings(shading, ready).front();
+    const bool traced = wants_reference(shading);
+    if (traced && backend != "cpu") throw UserError("technique reference has no shader: the cpu alone draws it");
+    Subject ready;
+    if (!traced) ready = load_subject(subject, shading, common, output);
+    const Shading shader = traced ? Shading{"reference", "", "", {}} : load_shadings(shading, ready).front();
     DrawOptions options;
     options.attributes = attributes;
     output.progress("drawing " + shader.technique + " on " + backend);
-    const Frame frame = Machines(cpu, host_fma).draw(backend, ready.bundle, shader.source, options);
+    const Frame frame = traced ? draw_reference(subject, shading, cpu, common, output, ready)
+                               : Machines(cpu, host_fma).draw(backend, ready.bundle, shader.source, options);
     const std::string hash = frame_hash(frame);
     if (!file.empty()) {
       PictureOptions noted = picture;
@@ -83,6 +88,7 @@ Verb add_render(CLI::App& app) {
   const auto verb = std::make_shared<RenderVerb>();
   add_subject_options(*command, verb->subject);
   add_shading_options(*command, verb->shading, "h4");
+  add_reference_options(*command, verb->shading);
   command->add_option("--on", verb->backend, "cpu, egl or osmesa (default: cpu)")->type_name("BACKEND");
   add_attribute_option(*command, verb->attributes);
   command->add_option("-o,--output", verb->file, "picture to write, by ending: .exr, .hdr or .png")->type_name("F.exr");

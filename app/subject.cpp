@@ -144,14 +144,6 @@ bool reads_coefficients(const LitTechnique& lit) {
          technique_source(*lit.technique, lit.storage).text.find("coefficients_") != std::string::npos;
 }
 
-Environment load_light(const SubjectOptions& options) {
-  Environment environment = load_environment(options.environment, options.clamp_radiance);
-  if (!options.second_environment.empty())
-    environment = blend_environments(environment, load_environment(options.second_environment, options.clamp_radiance),
-                                     options.blend);
-  return options.rotation_degrees == 0 ? environment : rotate_environment(environment, options.rotation_degrees);
-}
-
 // What techniques of precomputed visibility read, from each storage that one of them is drawn from.
 void add_visibility(Bundle& bundle, const SubjectOptions& options, const ShadingOptions& shading, const Scene& scene,
                     const Environment& environment, const std::vector<LitTechnique>& baked,
@@ -198,6 +190,22 @@ Bundle bundle_from_scene(const SubjectOptions& options, const ShadingOptions& sh
                                                            : bake_light(scene, environment, bake));
   }
 
+  Bundle bundle = make_bundle(scene, lights, baked, frame_options(options, scene));
+  add_visibility(bundle, options, shading, scene, environment, baked, common);
+  return bundle;
+}
+
+}  // namespace
+
+Environment load_light(const SubjectOptions& options) {
+  Environment environment = load_environment(options.environment, options.clamp_radiance);
+  if (!options.second_environment.empty())
+    environment = blend_environments(environment, load_environment(options.second_environment, options.clamp_radiance),
+                                     options.blend);
+  return options.rotation_degrees == 0 ? environment : rotate_environment(environment, options.rotation_degrees);
+}
+
+FrameOptions frame_options(const SubjectOptions& options, const Scene& scene) {
   FrameOptions frame;
   frame.width = options.width;
   frame.height = options.height;
@@ -209,12 +217,8 @@ Bundle bundle_from_scene(const SubjectOptions& options, const ShadingOptions& sh
   }
   frame.albedo = options.albedo;
   frame.normal_map = options.normal_map;
-  Bundle bundle = make_bundle(scene, lights, baked, frame);
-  add_visibility(bundle, options, shading, scene, environment, baked, common);
-  return bundle;
+  return frame;
 }
-
-}  // namespace
 
 bool wants_all(const ShadingOptions& options) {
   return options.shader.empty() && options.techniques.size() == 1 && options.techniques.front() == "all";

@@ -46,6 +46,10 @@ std::vector<const TechniqueInfo*> chosen_techniques(const ShadingOptions& option
 Subject load_subject(const SubjectOptions& options, const ShadingOptions& shading, const CommonOptions& common,
                      const Output& output);
 
+// The environment, or the blend of two, rotated.
+Environment load_light(const SubjectOptions& options);
+FrameOptions frame_options(const SubjectOptions& options, const Scene& scene);
+
 // The shaders to draw with, in registry order.
 std::vector<Shading> load_shadings(const ShadingOptions& options, const Subject& subject);
 

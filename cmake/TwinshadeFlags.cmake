@@ -5,12 +5,14 @@ target_compile_options(twinshade_flags INTERFACE -ffp-contract=off -fno-math-err
   -Wall -Wextra -Wpedantic -Wshadow -Werror -Wno-psabi)
 target_include_directories(twinshade_flags INTERFACE ${CMAKE_SOURCE_DIR})
 if(TWINSHADE_SANITIZE)
-  # vptr: Debian's glslang is built without the type information that this check needs.
-  target_compile_options(twinshade_flags INTERFACE -fsanitize=${TWINSHADE_SANITIZE} -fno-sanitize-recover=all
-    -fno-omit-frame-pointer)
+  set(sanitize -fsanitize=${TWINSHADE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   if(TWINSHADE_SANITIZE MATCHES undefined)
-    target_compile_options(twinshade_flags INTERFACE -fno-sanitize=vptr)
+    # vptr: Debian's glslang is built without the type information that this check needs.
+    list(APPEND sanitize -fno-sanitize=vptr)
   endif()
+  # Not where a target sets TWINSHADE_UNSANITIZED.
+  target_compile_options(twinshade_flags INTERFACE
+    "$<$<NOT:$<BOOL:$<TARGET_PROPERTY:TWINSHADE_UNSANITIZED>>>:${sanitize}>")
   target_link_options(twinshade_flags INTERFACE -fsanitize=${TWINSHADE_SANITIZE})
 endif()
 string(REPLACE "-O2" "-O3" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")

@@ -180,7 +180,7 @@ class Gatherer {
     std::uint32_t slot = 0, slot_first = 0, slot_last = 0, slot_ray = kNoReceiver, met_back = 0;
     for (std::uint32_t ray = 0; ray < options_.rays; ++ray) {
       if (remembered_ > 0 && ray == slot_last) slot_ray = remembered_ray(i, slot++, slot_first, slot_last);
-      const Site& site = receivers_.sites[receiver.first_site + ray % receiver.site_count];
+      const Site& site = receivers_.site_of(receiver, ray);
       const glm::vec3 direction(frame * directions[ray]);
       std::uint32_t source = kNoReceiver;
       if (!(glm::dot(direction, site.geometric_normal) > 0)) {
@@ -213,7 +213,7 @@ class Gatherer {
                              glm::dot(sample.direction, glm::dvec3(receiver.bitangent)),
                              glm::dot(sample.direction, glm::dvec3(receiver.normal)));
       if (!(local.z > 0)) continue;
-      const Site& site = receivers_.sites[receiver.first_site + s % receiver.site_count];
+      const Site& site = receivers_.site_of(receiver, s);
       const glm::vec3 direction(sample.direction);
       if (!(glm::dot(direction, site.geometric_normal) > 0) || rays_.occluded(site.origin, direction, site.triangle))
         continue;

@@ -20,7 +20,7 @@ struct Site {
 
 struct Receiver {
   std::uint32_t cell;                    // texel y * width + x, or vertex
-  std::uint32_t first_site, site_count;  // rays are dealt to the sites in turn
+  std::uint32_t first_site, site_count;  // rays are dealt to the sites: Receivers::site_of
   glm::vec3 tangent, bitangent, normal;  // orthonormal, world space
   glm::vec3 albedo;                      // linear; for light that bounces off here
 };
@@ -33,6 +33,12 @@ struct Receivers {
   std::vector<Receiver> list;           // in order of cell
   std::vector<Site> sites;
   std::vector<std::uint32_t> receiver_of_cell;  // kNoReceiver where no triangle is
+
+  // Where a ray of a receiver starts. By a hash: rays with numbers in step share a
+  // part of the azimuth.
+  const Site& site_of(const Receiver& receiver, std::uint32_t ray) const {
+    return sites[receiver.first_site + (ray * 0x9e3779b1u >> 16) % receiver.site_count];
+  }
 
   // The receiver whose light a point of a triangle shows: the texel there; or one of the three vertices, chosen by
   // `choice` in [0, 1) with the barycentric weights as probabilities.

@@ -162,7 +162,7 @@ class Baker {
       pending = 0;
     };
     for (std::uint32_t ray = 0; ray < options_.rays; ++ray) {
-      const Site& site = site_of(receiver, ray);
+      const Site& site = receivers_.site_of(receiver, ray);
       const glm::vec3& direction = directions[ray];
       const double cosine = glm::dot(glm::dvec3(direction), glm::dvec3(site.geometric_normal));
       if (!(cosine > 0)) continue;
@@ -182,17 +182,12 @@ class Baker {
     return traced;
   }
 
-  // Rays with numbers in step share a part of the azimuth, so sites and samples are dealt by a hash.
-  const Site& site_of(const Receiver& receiver, std::uint32_t ray) const {
-    return receivers_.sites[receiver.first_site + (ray * 0x9e3779b1u >> 16) % receiver.site_count];
-  }
-
   bool is_inside(const Receiver& receiver, const glm::vec3* directions) const {
     const std::uint32_t step = std::max(1u, options_.rays / kInsideRays);
     std::uint32_t tried = 0, back = 0;
     for (std::uint32_t ray = 0; ray < options_.rays; ++ray) {
       if (random_bits(options_.seed, kChooseInside, ray) % step != 0) continue;
-      const Site& site = site_of(receiver, ray);
+      const Site& site = receivers_.site_of(receiver, ray);
       if (!(glm::dot(directions[ray], site.geometric_normal) > 0)) continue;
       ++tried;
       const RayHit hit = rays_.closest(site.origin, directions[ray], site.triangle);

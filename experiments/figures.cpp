@@ -90,7 +90,7 @@ Drawing draw_tiles(const std::string& title, const std::string& subtitle, const 
     }
   }
   const double left = 16 + label_width + kGap;
-  Drawing drawing(std::max({left + double(columns) * (cell_width + kGap), 32 + text_width(title, 17.5),
+  Drawing drawing(std::max({left + double(columns) * (cell_width + kGap), 32 + text_width(title, 19.5),
                             32 + text_width(subtitle, 12)}),
                   kTop + double(rows.size()) * (cell_height + kGap));
   drawing.text({16, 28}, title, {.size = 17, .color = kInk, .bold = true});

@@ -102,7 +102,8 @@ TEST_CASE("lower orders are the beginning of higher ones, bit for bit") {
 
 TEST_CASE("Makhotkin's functions are orthogonal for the weight z and span what HSH spans") {
   const Points points = rings(0, 64);
-  for (const auto& [makhotkin, hsh] : {std::pair("makhotkin4", "hsh4"), std::pair("makhotkin9", "hsh9")}) {
+  for (const std::pair<const char*, const char*>& names : {std::pair("makhotkin4", "hsh4"), {"makhotkin9", "hsh9"}}) {
+    const char *makhotkin = names.first, *hsh = names.second;
     CAPTURE(makhotkin);
     const Matrix weighted = products(makhotkin, makhotkin, points, [](const glm::dvec3& n) { return n.z; });
     for (Eigen::Index i = 0; i < weighted.rows(); ++i)

@@ -92,7 +92,8 @@ TEST_CASE("light times visibility times cosine, by the rows of tables") {
 
 TEST_CASE("a table's texel holds what its normal gives, on every map, order and width") {
   for (const SphereMapInfo& map : sphere_maps())
-    for (const auto& [order, width] : {std::pair(1, 3), {2, 4}, {3, 9}, {4, 16}, {6, 32}, {6, 33}, {5, 1}}) {
+    for (const std::pair<int, int>& size : {std::pair(1, 3), {2, 4}, {3, 9}, {4, 16}, {6, 32}, {6, 33}, {5, 1}}) {
+      const int order = size.first, width = size.second;
       CAPTURE(std::string(map.name));
       CAPTURE(order);
       CAPTURE(width);

@@ -34,5 +34,8 @@ foreach(line IN LISTS map_lines)
   list(APPEND TWINSHADE_SHADERS ${name}:map_taps ${name}:map_direction)
 endforeach()
 
+set(TWINSHADE_BUILTIN ".*" CACHE STRING "which shaders (name:kind) to build in, as a regular expression: others are compiled when first asked for")
+list(FILTER TWINSHADE_SHADERS INCLUDE REGEX "${TWINSHADE_BUILTIN}")
+
 file(GLOB_RECURSE TWINSHADE_GLSL_FILES CONFIGURE_DEPENDS RELATIVE ${CMAKE_SOURCE_DIR}/shaders
   ${CMAKE_SOURCE_DIR}/shaders/*.glsl ${CMAKE_SOURCE_DIR}/shaders/*.frag)

@@ -4,8 +4,8 @@
 set -euo pipefail
 
 packages=(ca-certificates cmake ninja-build g++ pkg-config
-  glslang-dev spirv-headers libglm-dev libopenimageio-dev doctest-dev
-  libegl-dev libgl-dev libegl1 libegl-mesa0 libgl1-mesa-dri libosmesa6
+  glslang-dev glslang-tools spirv-headers libglm-dev libopenimageio-dev doctest-dev
+  libegl-dev libgl-dev libegl1 libegl-mesa0 libgl1-mesa-dri libosmesa6 libosmesa6-dev
   libcairo2-dev fonts-dejavu-core
   libeigen3-dev libembree-dev libtbb-dev libassimp-dev libcli11-dev nlohmann-json3-dev libfmt-dev)
 if [ "${1:-}" = all ]; then

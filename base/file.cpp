@@ -4,7 +4,6 @@
 
 #include <atomic>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -19,7 +18,9 @@ std::string read_file(const std::string& path) {
   if (fs::is_directory(path, code)) throw UserError(path + ": is a folder; name a file");
   std::ifstream in(path, std::ios::binary);
   if (!in) throw UserError(path + ": cannot be read: " + std::strerror(errno));
-  std::string content((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  std::string content;
+  char block[1 << 16];
+  while (in.read(block, sizeof block) || in.gcount() > 0) content.append(block, std::size_t(in.gcount()));
   if (in.bad()) throw UserError(path + ": cannot be read: " + std::strerror(errno));
   return content;
 }
@@ -53,22 +54,6 @@ void write_file(const std::string& path, std::string_view content) {
     out.close();
     if (!out) throw UserError(path + ": cannot be written: " + std::strerror(errno));
   });
-}
-
-std::string cache_folder() {
-  fs::path folder;
-  if (const char* own = std::getenv("TWINSHADE_CACHE"); own && *own)
-    folder = own;
-  else if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg && *xdg)
-    folder = fs::path(xdg) / "twinshade";
-  else if (const char* home = std::getenv("HOME"); home && *home)
-    folder = fs::path(home) / ".cache" / "twinshade";
-  else
-    throw UserError("no cache folder: set HOME, XDG_CACHE_HOME or TWINSHADE_CACHE");
-  std::error_code code;
-  fs::create_directories(folder, code);
-  if (code) throw UserError(folder.string() + ": cannot be created: " + code.message() + "; set TWINSHADE_CACHE");
-  return folder.string();
 }
 
 }  // namespace twinshade

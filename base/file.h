@@ -17,7 +17,4 @@ void write_file(const std::string& path, std::string_view content);
 // renamed to `path` when `write` returns, removed when it throws.
 void write_file_with(const std::string& path, const std::function<void(const std::string& temporary)>& write);
 
-// The folder for caches: $TWINSHADE_CACHE, else $XDG_CACHE_HOME/twinshade, else ~/.cache/twinshade. Created if missing.
-std::string cache_folder();
-
 }  // namespace twinshade

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "base/cache.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
@@ -101,7 +102,10 @@ std::optional<LightBake> cached_bake(const std::string& key) {
   try {
     const std::string path = bake_cache_path(key);
     if (!std::filesystem::exists(path)) return std::nullopt;
-    if (std::optional<LightBake> bake = deserialize_bake(read_file(path))) return bake;
+    if (std::optional<LightBake> bake = deserialize_bake(read_file(path))) {
+      touch_cached(path);
+      return bake;
+    }
     std::fprintf(stderr, "twinshade: cached bake %s is damaged: baking again\n", path.c_str());
     std::error_code ignored;
     std::filesystem::remove(path, ignored);
@@ -114,6 +118,7 @@ std::optional<LightBake> cached_bake(const std::string& key) {
 void keep_bake(const std::string& key, std::string_view bytes) {
   try {
     write_file(bake_cache_path(key), bytes);
+    trim_cache();
   } catch (const UserError& error) {
     std::fprintf(stderr, "twinshade: bake not cached: %s\n", error.what());
   }

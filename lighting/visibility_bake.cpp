@@ -10,6 +10,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "base/cache.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
@@ -246,7 +247,10 @@ bool find_cached(const std::string& key, VisibilityBake& bake) {
   try {
     const std::string path = bake_cache_path(key);
     if (!std::filesystem::exists(path)) return false;
-    if (deserialize(read_file(path), bake)) return true;
+    if (deserialize(read_file(path), bake)) {
+      touch_cached(path);
+      return true;
+    }
     std::fprintf(stderr, "twinshade: cached bake %s is damaged: baking again\n", path.c_str());
   } catch (const UserError& error) {
     std::fprintf(stderr, "twinshade: bake cache not used: %s\n", error.what());

@@ -1,0 +1,185 @@
+// The compiler that is found, and the objects it makes: cached, checked, shared between processes.
+#include <dlfcn.h>
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+
+#include <bit>
+#include <thread>
+#include <vector>
+
+#include "base/file.h"
+#include "base/hash.h"
+#include "cpu_shaders/load/compiler.h"
+#include "cpu_shaders/load/host_eval.h"
+#include "cpu_shaders/load/load.h"
+#include "cpu_shaders/runtime/machine.h"
+#include "cpu_shaders/translate/translate.h"
+#include "tests/load/cache_fixture.h"
+
+using namespace twinshade;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string compile(const std::string& body, const std::string& compiler = {}) {
+  return compile_shader(translate(small_shader(body)).cpp, Isa::baseline, Number::scalar, compiler);
+}
+
+double run(const std::string& object, double x, double y, double z) {
+  void* library = dlopen(object.c_str(), RTLD_NOW | RTLD_LOCAL);
+  REQUIRE_MESSAGE(library != nullptr, object);
+  const auto* module = static_cast<const ShaderModule*>(dlsym(library, kModuleSymbol));
+  REQUIRE(module != nullptr);
+  return run_module(*module, Number::scalar, {x, y, z}, 1)[0];
+}
+
+std::vector<fs::path> files_named(const std::string& folder, const std::string& ending) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.path().string().ends_with(ending)) files.push_back(entry.path());
+  return files;
+}
+
+std::string read_or_nothing(const std::string& path) { return fs::exists(path) ? read_file(path) : ""; }
+
+void truncate_to_half(const std::string& path) {
+  const std::string content = read_file(path);
+  write_file(path, content.substr(0, content.size() / 2));
+}
+
+void write_program(const std::string& path, const std::string& text) {
+  write_file(path, text);
+  fs::permissions(path, fs::perms::owner_all);
+}
+
+}  // namespace
+
+TEST_CASE("a compiled shader is taken from the cache, and a damaged one is built again") {
+  shared_cache();
+  const std::string path = compile("r = a.x;");
+  const std::string content = read_file(path);
+  const auto long_ago = fs::file_time_type::clock::now() - std::chrono::hours(24);
+  fs::last_write_time(path, long_ago);
+  CHECK(compile("r = a.x;") == path);
+  CHECK_MESSAGE(fs::last_write_time(path) > long_ago, "a use is not recorded");
+  for (const std::size_t length : {std::size_t(0), content.size() / 2, content.size() - 1}) {
+    write_file(path, content.substr(0, length));
+    CHECK(compile("r = a.x;") == path);
+    CHECK(fs::file_size(path) == content.size());
+  }
+  std::string damaged = content;
+  damaged[damaged.size() / 2] = char(damaged[damaged.size() / 2] ^ 1);
+  write_file(path, damaged);
+  compile("r = a.x;");
+  CHECK(read_file(path) != damaged);
+  CHECK(run(path, 1.5, 0, 0) == 1.5);
+}
+
+TEST_CASE(
+    "a prepared runtime that is damaged, or that its compiler refuses, does not stop a shader and is made again") {
+  const TestCache cache;
+  compile("r = a.x;");
+  const std::string precompiled = files_named(cache.folder, ".gch").at(0).string();
+  const std::string mathematics = files_named(cache.folder, "portable_math.o").at(0).string();
+  const std::uintmax_t precompiled_size = fs::file_size(precompiled), mathematics_size = fs::file_size(mathematics);
+  truncate_to_half(precompiled);
+  truncate_to_half(mathematics);
+  CHECK(run(compile("r = exp(a.x);"), 0, 0, 0) == 1);
+  CHECK(fs::file_size(precompiled) == precompiled_size);
+  CHECK(fs::file_size(mathematics) == mathematics_size);
+
+  const std::string nonsense = "CPCH, but no more";  // whole by its hash
+  write_file(precompiled, nonsense);
+  write_file(precompiled + ".sha256", sha256_hex(nonsense));
+  CHECK(run(compile("r = exp(a.y);"), 1, 0, 0) == 1);
+  CHECK(read_or_nothing(precompiled) != nonsense);
+}
+
+TEST_CASE("racing threads and processes all get a whole object") {
+  const TestCache& cache = shared_cache();
+  const std::string cpp = translate(small_shader("r = a.y;")).cpp;
+  constexpr int kProcesses = 3;
+  std::vector<pid_t> children;
+  for (int k = 0; k < kProcesses; ++k) {
+    const pid_t child = fork();
+    REQUIRE(child >= 0);
+    if (child != 0) {
+      children.push_back(child);
+      continue;
+    }
+    int status = 1;
+    try {
+      const std::string object = compile_shader(cpp, Isa::baseline, Number::scalar);
+      status = dlopen(object.c_str(), RTLD_NOW) ? 0 : 2;
+    } catch (...) {
+    }
+    _exit(status);
+  }
+  std::vector<std::string> paths(2);
+  std::vector<std::thread> threads;
+  for (std::string& path : paths)
+    threads.emplace_back([&path, &cpp] { path = compile_shader(cpp, Isa::baseline, Number::scalar); });
+  for (std::thread& thread : threads) thread.join();
+  for (const pid_t child : children) {
+    int status = 0;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    CHECK(status == 0);
+  }
+  CHECK(paths[0] == paths[1]);
+  CHECK(run(paths[0], 0, 4.5, 0) == 4.5);
+  for (const auto& entry : fs::recursive_directory_iterator(cache.folder))
+    CHECK_MESSAGE(!entry.path().filename().string().starts_with("."), entry.path().string());
+  CHECK(files_named(cache.folder, ".so").size() == 1);
+}
+
+TEST_CASE("both compilers make code that gives the same bits") {
+  shared_cache();
+  std::vector<double> results;
+  for (const char* compiler : {"g++", "clang++"}) {
+    std::string path;
+    const std::string message = message_of(
+        [&] { path = compile("r = (a.x * a.y - a.z) / (a.x + 3.0) + sqrt(abs(a.y)) + sin(a.z);", compiler); });
+    if (message.find("no C++ compiler") != std::string::npos) {
+      MESSAGE(std::string(compiler) << " is missing: not tried");
+      continue;
+    }
+    REQUIRE_MESSAGE(message == "no error", message);
+    results.push_back(run(path, 0.3, 1.7, -2.9));
+  }
+  for (const double result : results)
+    CHECK(std::bit_cast<std::uint64_t>(result) == std::bit_cast<std::uint64_t>(results[0]));
+}
+
+TEST_CASE("a compiler asked for by name or by CXX is the one, or none") {
+  shared_cache();
+  const std::string compiler = find_compiler().command[0];
+  {
+    const TestVariable cxx("CXX", compiler.c_str());
+    CHECK(find_compiler().command == std::vector<std::string>{compiler});
+    CHECK(find_compiler("  " + compiler + " -m64").command == std::vector<std::string>{compiler, "-m64"});
+  }
+  const TestVariable cxx("CXX", "no-such-compiler");
+  CHECK_THROWS_WITH_AS(find_compiler(), doctest::Contains("CXX=no-such-compiler"), UserError);
+  CHECK_THROWS_WITH_AS(find_compiler("nor-this"), doctest::Contains("nor-this"), UserError);
+}
+
+TEST_CASE("a wrapper is known by the compiler behind it") {
+  const TestCache& cache = shared_cache();
+  const std::string wrapper = cache.folder + "/wrapped-clang++", version = cache.folder + "/version";
+  write_program(wrapper, "#!/bin/sh\ncat " + version + "\n");
+  write_file(version, "12.1");
+  const std::string before = find_compiler(wrapper).identity;
+  CHECK(find_compiler(wrapper).identity == before);
+  write_file(version, "12.2");
+  CHECK(find_compiler(wrapper).identity != before);
+}
+
+TEST_CASE("what a compiler complains of is one line, and nothing is left behind") {
+  const TestCache& cache = shared_cache();
+  const std::string message =
+      message_of([] { compile_shader("#line 7 \"mine.frag\"\nint x = nonsense;\n", Isa::baseline, Number::scalar); });
+  CHECK_MESSAGE(message.find("mine.frag:7:") != std::string::npos, message);
+  CHECK(message.find('\n') == std::string::npos);
+  CHECK(files_named(cache.folder, ".so").empty());
+  CHECK(files_named(cache.folder, ".cpp").size() == 1);  // the runtime's
+}

@@ -22,6 +22,7 @@ ShaderSource probe(const std::string& name, const std::string& value) {
                         "in vec3 v_position;\n"
                         "out vec4 color;\n"
                         "void main() {\n"
+                        "  load_surface_maps();\n"
                         "  color = vec4(" +
                             value + ", 1.0);\n}\n",
                         "reference_" + name);

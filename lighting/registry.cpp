@@ -9,22 +9,13 @@ namespace twinshade {
 namespace {
 
 constexpr TechniqueInfo kTechniques[] = {
-#define BASIS(name, file, domain, count, linear, projection, source) \
-  {#name, #file, true, Domain::domain, count, linear, Projection::projection, source},
+#define BASIS(name, file, domain, count, linear, projection, reads, source) \
+  {#name, #file, true, Domain::domain, count, linear, Projection::projection, source, Reads::reads},
 #define TECHNIQUE(name, file, source) \
   {#name, #file, false, Domain::hemisphere, 0, false, Projection::least_squares, source},
-#define VISIBILITY(name, file, weights, count, mean, tables, source) \
-  {#name,                                                            \
-   #file,                                                            \
-   false,                                                            \
-   Domain::hemisphere,                                               \
-   count,                                                            \
-   false,                                                            \
-   Projection::least_squares,                                        \
-   source,                                                           \
-   #tables,                                                          \
-   VisibilityWeights::weights,                                       \
-   mean},
+#define VISIBILITY(name, file, weights, count, mean, tables, source)                                 \
+  {#name,  #file,      false,   Domain::hemisphere,         count, false, Projection::least_squares, \
+   source, Reads::all, #tables, VisibilityWeights::weights, mean},
 #include "lighting/registry.def"
 #undef BASIS
 #undef TECHNIQUE
@@ -105,6 +96,7 @@ ShaderSource technique_source(const TechniqueInfo& technique, CoefficientStorage
   if (technique.is_basis) {
     text += "#define COEFFICIENTS " + std::string(volume ? "volume_" : "coefficients_") + name + "\n";
     text += "#define COEFFICIENT_COUNT " + std::to_string(technique.count) + "\n";
+    if (volume) text += "#define COEFFICIENTS_PICKED " + std::to_string(int(technique.reads == Reads::some)) + "\n";
     text += "#include \"technique/" + std::string(volume ? "surface_world" : "surface") + ".glsl\"\n";
     text += "#include \"technique/coefficients_" +
             std::string(volume   ? "volume"

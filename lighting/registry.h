@@ -36,6 +36,9 @@ std::string_view storage_name(CoefficientStorage storage);  // as on the command
 // What a technique of precomputed visibility stores.
 enum class VisibilityWeights { none, sh, pca, ambient };
 
+// Of a basis' coefficients, at one normal: whether COEF(i) occurs with an i that depends on the normal.
+enum class Reads { all, some };
+
 struct TechniqueInfo {
   std::string_view name;
   std::string_view file;  // under shaders/basis/ (bases) or shaders/technique/
@@ -45,6 +48,7 @@ struct TechniqueInfo {
   bool linear;            // bases: each channel a sum of coefficients times basis_value
   Projection projection;  // bases
   std::string_view source;
+  Reads reads = Reads::all;          // bases
   std::string_view tables = "none";  // of visibility techniques: kind of L x H tables
   VisibilityWeights weights = VisibilityWeights::none;
   bool has_mean = false;

@@ -1,5 +1,5 @@
-// The functions of shaders/exact/ that the runtime serves by equivalents of its own (served.h): what the translator
-// looks a function up by. Everything else runs as it is written.
+// The functions of shaders/exact/ and shaders/sphere_map/ that the runtime serves by equivalents of its own (served.h):
+// what the translator looks a function up by. Everything else runs as it is written.
 #pragma once
 
 #include <string_view>
@@ -24,6 +24,8 @@ inline constexpr ServedFunction kServedFunctions[] = {
     {"exact_asin", "float", "float"},
     {"exact_fetch", "vec4", "sampler2D,ExactTaps"},
     {"exact_fetch", "vec4", "sampler2DArray,ExactTaps,int"},
+    {"exact_fetch_4", "mat4x4", "sampler2DArray,ExactTaps,int"},
+    {"exact_fetch_pair", "mat2x4", "sampler2DArray,sampler2DArray,ExactTaps,int"},
 };
 
 }  // namespace twinshade

@@ -9,7 +9,7 @@
 
 namespace twinshade {
 
-inline constexpr std::uint32_t kAbiVersion = 1;
+inline constexpr std::uint32_t kAbiVersion = 2;
 
 // What a piece of translated code was built for. The numbers are an order: a machine that has avx512 has all before it.
 enum class Isa : std::uint8_t { baseline = 0, avx2 = 1, avx512 = 2 };  // baseline: x86-64-v2, or AArch64 with NEON
@@ -18,40 +18,47 @@ enum class Number : std::uint8_t { lanes4 = 0, lanes8 = 1, lanes16 = 2, scalar =
 struct ShaderVariable {  // an `in` or `out`
   const char* name;
   Scalar scalar;
-  std::uint8_t columns, rows;       // vecN: columns 1, rows N
-  std::uint32_t array_length;       // 0: not an array
+  std::uint8_t columns, rows;  // vecN: columns 1, rows N
+  std::uint32_t array_length;  // 0: not an array
   bool flat;
   bool noperspective;
-  std::int32_t location;            // of an `out`: colour attachment; -1: not given
-  std::uint32_t first_component;    // where it starts in ShadeCall::inputs or outputs; element-major, column-major
+  std::int32_t location;          // of an `out`: colour attachment; -1: not given
+  std::uint32_t first_component;  // where it starts in ShadeCall::inputs or outputs; element-major, column-major
 };
 
-struct ShaderUniform {  // a leaf of a uniform outside any block: structs are flattened to "light.colour", "lights[2].colour"
+struct ShaderUniform {  // a leaf of a uniform outside any block: structs are flattened to "light.colour",
+                        // "lights[2].colour"
   const char* name;
   Scalar scalar;
   std::uint8_t columns, rows;
-  std::uint32_t array_length;               // 0: not an array
-  std::uint32_t offset;                     // bytes into ShaderData::uniforms
+  std::uint32_t array_length;                 // 0: not an array
+  std::uint32_t offset;                       // bytes into ShaderData::uniforms
   std::uint32_t array_stride, matrix_stride;  // bytes
 };
 
 enum class ResourceKind : std::uint8_t { uniform_block, storage_buffer, sampler_2d, sampler_2d_array, sampler_cube };
 
 struct ShaderResource {
-  const char* name;           // block name, or sampler name ("maps[2]" for an element of a sampler array)
+  const char* name;  // block name, or sampler name ("maps[2]" for an element of a sampler array)
   ResourceKind kind;
-  std::uint32_t slot;         // index into ShaderData::textures or ::buffers
-  std::uint32_t minimum_size; // bytes that a block needs at least
+  std::uint32_t slot;          // index into ShaderData::textures or ::buffers
+  std::uint32_t minimum_size;  // bytes that a block needs at least
   bool read_only;
+  bool layers_together =
+      false;  // sampler: several layers are read at once at the same texel, so they should lie side by side
+  std::int32_t beside =
+      -1;  // sampler: slot of another whose texels are read together with this one's, if their sizes are equal
 };
 
-struct TextureView {  // RGBA32F
+struct TextureView {    // RGBA32F
   const float* texels;  // texel (0,0) of layer 0
   std::int32_t width, height, layers;
-  std::ptrdiff_t row_pitch, layer_pitch;  // floats
+  std::ptrdiff_t row_pitch, layer_pitch;  // floats; multiples of 4, as texel_pitch
   TextureKind kind;
   Filter filter;
   Wrap wrap;
+  std::ptrdiff_t texel_pitch =
+      4;  // floats from texel x to x + 1. Above 4: all layers of a texel lie side by side, layer_pitch 4
 };
 
 struct BufferView {
@@ -65,22 +72,22 @@ struct ShaderData {  // the same for all invocations of a draw
   const BufferView* buffers;
 };
 
-// A block of fragment invocations. Invocations 4q .. 4q+3 are one 2 x 2 quad: (x,y) (x+1,y) (x,y+1) (x+1,y+1), x and y even.
-// count is a multiple of 16; pad with dead quads (live = 0, any finite inputs).
-// Arrays are structures of arrays: component c of invocation i is at [c * stride + i]; 64-byte aligned, stride a multiple of 16.
-// "real" is float, or double for Number::float64. In a float array integers are bit patterns; in a double array they are
-// their value, and so are booleans (0 or 1).
+// A block of fragment invocations. Invocations 4q .. 4q+3 are one 2 x 2 quad: (x,y) (x+1,y) (x,y+1) (x+1,y+1), x and y
+// even. count is a multiple of 16; pad with dead quads (live = 0, any finite inputs). Arrays are structures of arrays:
+// component c of invocation i is at [c * stride + i]; 64-byte aligned, stride a multiple of 16. "real" is float, or
+// double for Number::float64. In a float array integers are bit patterns; in a double array they are their value, and
+// so are booleans (0 or 1).
 struct ShadeCall {
   std::uint32_t count;
   std::uint32_t stride;
-  const void* inputs;                  // real; in order of ShaderVariable::first_component
-  const void* frag_coord;              // real; 4 components
-  const std::uint32_t* live;           // ~0u: covered; 0: helper (runs for derivatives, writes nothing)
-  const std::uint32_t* front_facing;   // ~0u or 0
+  const void* inputs;                 // real; in order of ShaderVariable::first_component
+  const void* frag_coord;             // real; 4 components
+  const std::uint32_t* live;          // ~0u: covered; 0: helper (runs for derivatives, writes nothing)
+  const std::uint32_t* front_facing;  // ~0u or 0
   const std::uint32_t* primitive_id;
-  void* outputs;                       // real; helpers and discarded invocations leave theirs undefined
-  void* frag_depth;                    // real; written only if the shader writes gl_FragDepth
-  std::uint32_t* kept;                 // out: ~0u where live and not discarded
+  void* outputs;        // real; helpers and discarded invocations leave theirs undefined
+  void* frag_depth;     // real; written only if the shader writes gl_FragDepth
+  std::uint32_t* kept;  // out: ~0u where live and not discarded
 };
 
 using ShadeFunction = void (*)(const ShaderData&, const ShadeCall&);
@@ -103,7 +110,8 @@ struct ShaderModule {
   std::uint32_t uniform_count, uniform_bytes;
   const ShaderResource* resources;
   std::uint32_t resource_count, texture_count, buffer_count;
-  bool discards, writes_depth, has_side_effects, uses_derivatives, uses_frag_coord, uses_front_facing, uses_primitive_id;
+  bool discards, writes_depth, has_side_effects, uses_derivatives, uses_frag_coord, uses_front_facing,
+      uses_primitive_id;
   const char* no_float64_reason;  // null, or why there is no float64 entry ("file:line: floatBitsToInt ...")
   const ShaderEntry* entries;
   std::uint32_t entry_count;

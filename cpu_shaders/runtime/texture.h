@@ -33,19 +33,29 @@ TWINSHADE_INLINE I clamp_to_size(const I& i, std::int32_t size) {
   return lanes_max(lanes_min(i, I(size - 1)), I(0));
 }
 
-// Coordinates in range. Pitches are multiples of a texel; indices in texels fit 32 bits (64 GiB of texels).
+template <class U>
+TWINSHADE_INLINE U pitch(std::ptrdiff_t floats) {
+  return U(static_cast<std::uint32_t>(floats / 4));
+}
+
+// Where a texel of layer 0 lies, in fours of floats; these fit 32 bits (64 GiB). Coordinates in range.
+template <Lane I>
+TWINSHADE_INLINE auto texel_index(const TextureView& view, const I& x, const I& y) {
+  using U = typename I::template with<std::uint32_t>;
+  return y.template to<std::uint32_t>() * pitch<U>(view.row_pitch) +
+         x.template to<std::uint32_t>() * pitch<U>(view.texel_pitch);
+}
+
+// Coordinates in range.
 template <class Real, Lane I>
 TWINSHADE_INLINE auto fetch(const TextureView& view, const I& x, const I& y, const I& layer) {
   using U = typename I::template with<std::uint32_t>;
-  const U row(static_cast<std::uint32_t>(view.row_pitch / 4)), slice(static_cast<std::uint32_t>(view.layer_pitch / 4));
-  return load_texels<Real>(view.texels, layer.template to<std::uint32_t>() * slice +
-                                            (y.template to<std::uint32_t>() * row + x.template to<std::uint32_t>()));
+  return load_texels<Real>(view.texels,
+                           texel_index(view, x, y) + layer.template to<std::uint32_t>() * pitch<U>(view.layer_pitch));
 }
 template <class Real, Lane I>
 TWINSHADE_INLINE auto fetch(const TextureView& view, const I& x, const I& y) {
-  using U = typename I::template with<std::uint32_t>;
-  const U row(static_cast<std::uint32_t>(view.row_pitch / 4));
-  return load_texels<Real>(view.texels, y.template to<std::uint32_t>() * row + x.template to<std::uint32_t>());
+  return load_texels<Real>(view.texels, texel_index(view, x, y));
 }
 
 template <Lane F>

@@ -401,7 +401,8 @@ class ModuleEmitter {
                          std::to_string(u.matrix_stride));
     for (const auto& x : r.resources)
       resources.push_back(quoted(x.name) + ", " + kind_name(x.kind) + ", " + std::to_string(x.slot) + ", " +
-                          std::to_string(x.minimum_size) + ", " + boolean(x.read_only));
+                          std::to_string(x.minimum_size) + ", " + boolean(x.read_only) + ", " +
+                          boolean(x.layers_together) + ", " + std::to_string(x.beside));
     table("ShaderUniform", "kUniforms", uniforms);
     table("ShaderResource", "kResources", resources);
 

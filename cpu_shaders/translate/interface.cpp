@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "cpu_shaders/translate/served.h"
 
 namespace twinshade::spirv {
 namespace {
@@ -54,6 +55,7 @@ class Describer {
       }
     }
     reflection_.uniform_bytes = (reflection_.uniform_bytes + 15) / 16 * 16;
+    for (const auto& [first, second] : samplers_side_by_side(program_)) place_beside(first, second);
     for (const auto& [id, info] : program_.functions) {
       reflection_.discards |= info.discards;
       reflection_.has_side_effects |= info.writes_buffers;
@@ -204,6 +206,7 @@ class Describer {
         r.name = t.kind == Kind::array ? name + "[" + std::to_string(k) + "]" : name;
         r.kind = kind;
         r.slot = reflection_.texture_count++;
+        r.layers_together = layers_together_.count(v.id) != 0;
         reflection_.resources.push_back(r);
       }
       return;
@@ -218,6 +221,12 @@ class Describer {
     g.offset = (reflection_.uniform_bytes + 15) / 16 * 16;
     reflection_.uniform_bytes = g.offset + layout.size(v.type);
     leaves(layout, v.type, name, g.offset);
+  }
+
+  void place_beside(Id first, Id second) {
+    const std::uint32_t slot = result_.globals.at(first).slot, other = result_.globals.at(second).slot;
+    for (ReflectedResource& r : reflection_.resources)
+      if (r.kind == ResourceKind::sampler_2d_array && r.slot == slot) r.beside = static_cast<std::int32_t>(other);
   }
 
   bool holds_opaque(Id type) const {
@@ -286,6 +295,7 @@ class Describer {
   Interface result_;
   Reflection& reflection_;
   std::set<Id> mentioned_;
+  const std::set<Id> layers_together_ = samplers_with_layers_together(program_);
 };
 
 }  // namespace

@@ -30,6 +30,8 @@ std::string glsl_type(const Module& module, Id id) {
       return "float";
     case Kind::vector:
       return prefixed(t.element) + "vec" + std::to_string(t.count);
+    case Kind::matrix:
+      return "mat" + std::to_string(t.count) + "x" + std::to_string(module.type(t.element).count);
     case Kind::structure:
       return module.name(id);
     case Kind::pointer:
@@ -46,7 +48,8 @@ std::string glsl_type(const Module& module, Id id) {
 }  // namespace
 
 bool is_served(const Module& module, const Function& function) {
-  if (module.position(function.file, function.line).file.rfind("shaders/exact/", 0) != 0) return false;
+  const std::string& file = module.position(function.file, function.line).file;
+  if (file.rfind("shaders/exact/", 0) != 0 && file.rfind("shaders/sphere_map/", 0) != 0) return false;
   std::string parameters;
   for (const Parameter& p : function.parameters)
     parameters += (parameters.empty() ? "" : ",") + glsl_type(module, p.type);
@@ -58,6 +61,45 @@ bool is_served(const Module& module, const Function& function) {
 
 bool is_served_in_double(const Module& module, const Function& function) {
   return is_served(module, function) && module.type(function.result_type).kind == Kind::real;
+}
+
+std::set<Id> samplers_with_layers_together(const Program& program) {
+  std::set<Id> together;  // variables, and parameters that samplers are passed in
+  const auto fetches_layers = [&](const FunctionInfo& info) {
+    const Function& f = *info.function;
+    return (f.name == "exact_fetch_4" || f.name == "sphere_map_fetch_4") && is_served(program.module, f);
+  };
+  for (const auto& [id, info] : program.functions)
+    if (fetches_layers(info)) together.insert(info.function->parameters[0].id);
+  for (std::size_t before = 0; before != together.size();) {
+    before = together.size();
+    for (const auto& [id, info] : program.functions)
+      for_each_instruction(info.body.list, [&, &caller = info](const Instruction& i) {
+        if (i.op != spv::OpFunctionCall) return;
+        const auto& parameters = program.info(i.operands[0]).function->parameters;
+        for (std::size_t k = 0; k < parameters.size(); ++k)
+          if (together.count(parameters[k].id)) together.insert(root_of(caller, i.operands[k + 1]));
+      });
+  }
+  return together;
+}
+
+std::map<Id, Id> samplers_side_by_side(const Program& program) {
+  std::map<Id, Id> pairs;
+  std::set<Id> taken;
+  for (const auto& [id, info] : program.functions)
+    for_each_instruction(info.body.list, [&](const Instruction& i) {
+      if (i.op != spv::OpFunctionCall) return;
+      const Function& callee = *program.info(i.operands[0]).function;
+      if (callee.name != "exact_fetch_pair" || !is_served(program.module, callee)) return;
+      const Id first = i.operands[1], second = i.operands[2];
+      const auto& variables = program.module.variables;
+      if (first == second || !variables.count(first) || !variables.count(second)) return;
+      if (taken.count(first) || taken.count(second)) return;
+      taken.insert({first, second});
+      pairs[first] = second;
+    });
+  return pairs;
 }
 
 }  // namespace twinshade::spirv

@@ -11,4 +11,10 @@ bool is_served(const Module& module, const Function& function);
 // Functions of numbers alone are served in double: their bit casts never run there.
 bool is_served_in_double(const Module& module, const Function& function);
 
+// Pairs of sampler variables that are fetched together, the first by its second. A variable is in one pair at most.
+std::map<Id, Id> samplers_side_by_side(const Program& program);
+
+// Sampler variables of which several layers are fetched at once, by a served function of that kind.
+std::set<Id> samplers_with_layers_together(const Program& program);
+
 }  // namespace twinshade::spirv

@@ -36,7 +36,8 @@ struct ReflectedResource {
   std::string name;
   ResourceKind kind = ResourceKind::sampler_2d;
   std::uint32_t slot = 0, minimum_size = 0;
-  bool read_only = true;
+  bool read_only = true, layers_together = false;
+  std::int32_t beside = -1;
 };
 
 struct Reflection {

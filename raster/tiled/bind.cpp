@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/parallel.h"
 
 namespace twinshade::tiled {
 namespace {
@@ -144,6 +145,9 @@ class Binder {
           break;
       }
     }
+    for (std::uint32_t i = 0; i < module_.resource_count; ++i)
+      if (module_.resources[i].beside >= 0)
+        put_beside(draw_.textures[module_.resources[i].slot], draw_.textures[std::size_t(module_.resources[i].beside)]);
   }
 
   void bind_buffer(const ShaderResource& wanted, bool storage) {
@@ -178,6 +182,47 @@ class Binder {
     view.kind = kind;
     view.filter = texture->filter;
     view.wrap = texture->wrap;
+    if (wanted.layers_together) interleave(view);
+  }
+
+  // Layers side by side at each texel, in whole cache lines of four; the last one repeated at the end.
+  void interleave(TextureView& view) {
+    const auto layers = std::size_t(view.layers), padded = (layers + 3) / 4 * 4;
+    const std::size_t width = std::size_t(view.width), height = std::size_t(view.height);
+    AlignedArray<float>& to = draw_.interleaved.emplace_back(width * height * padded * 4);
+    parallel_for(height, [&](std::size_t y, int) {
+      for (std::size_t layer = 0; layer < padded; ++layer) {
+        const float* from = view.texels + std::ptrdiff_t(std::min(layer, layers - 1)) * view.layer_pitch +
+                            std::ptrdiff_t(y) * view.row_pitch;
+        for (std::size_t x = 0; x < width; ++x)
+          std::copy_n(from + x * 4, 4, &to[((y * width + x) * padded + layer) * 4]);
+      }
+    });
+    view.texels = to.data();
+    view.texel_pitch = std::ptrdiff_t(padded * 4);
+    view.row_pitch = view.texel_pitch * std::ptrdiff_t(width);
+    view.layer_pitch = 4;
+  }
+
+  // Texels of two textures of one size side by side.
+  void put_beside(TextureView& a, TextureView& b) {
+    if (a.width != b.width || a.height != b.height || a.layers != b.layers) return;
+    if (a.texel_pitch != 4 || b.texel_pitch != 4) return;
+    const std::size_t row = std::size_t(a.width), rows = std::size_t(a.height) * std::size_t(a.layers);
+    AlignedArray<float>& to = draw_.interleaved.emplace_back(rows * row * 8);
+    parallel_for(rows, [&](std::size_t y, int) {
+      for (std::size_t x = y * row; x < (y + 1) * row; ++x) {
+        std::copy_n(a.texels + x * 4, 4, &to[x * 8]);
+        std::copy_n(b.texels + x * 4, 4, &to[x * 8 + 4]);
+      }
+    });
+    a.texels = to.data();
+    b.texels = to.data() + 4;
+    for (TextureView* view : {&a, &b}) {
+      view->texel_pitch = 8;
+      view->row_pitch *= 2;
+      view->layer_pitch *= 2;
+    }
   }
 
   void choose_color() {

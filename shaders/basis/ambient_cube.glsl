@@ -16,8 +16,8 @@ float basis_value(int i, vec3 n) {
 }
 
 vec3 basis_irradiance(vec3 n) {
-  precise vec3 irradiance = COEF(n.x < 0.0 ? 3 : 0) * ambient_cube_weight(n.x);
-  irradiance += COEF(n.y < 0.0 ? 4 : 1) * ambient_cube_weight(n.y);
-  irradiance += COEF(n.z < 0.0 ? 5 : 2) * ambient_cube_weight(n.z);
+  precise vec3 irradiance = (n.x < 0.0 ? COEF(3) : COEF(0)) * ambient_cube_weight(n.x);
+  irradiance += (n.y < 0.0 ? COEF(4) : COEF(1)) * ambient_cube_weight(n.y);
+  irradiance += (n.z < 0.0 ? COEF(5) : COEF(2)) * ambient_cube_weight(n.z);
   return irradiance;
 }

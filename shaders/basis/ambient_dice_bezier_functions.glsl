@@ -14,6 +14,11 @@
 // w is 0/0 at the vertices: 6 b_0 b_1 b_2 w_k tends to 0 there.
 #include "basis/ambient_dice_functions.glsl"
 
+// Coefficients i, i + 1 and i + 2 at once: an includer who can do better than three reads defines it.
+#ifndef COEF_3
+#define COEF_3(i) mat3(COEF(i), COEF((i) + 1), COEF((i) + 2))
+#endif
+
 struct DicePatch {
   vec3 edge;          // a0, a1, a2
   float value_scale;  // of c_k in c_kl

@@ -11,11 +11,11 @@ float basis_value(int i, vec3 n) {
 
 vec3 basis_irradiance(vec3 n) {
   DiceCosines cosines = dice_cosines(n);
-  precise vec3 irradiance = COEF(cosines.first.x < 0.0 ? 3 : 0) * dice_lobe(cosines.first.x);
-  irradiance += COEF(cosines.second.x < 0.0 ? 2 : 1) * dice_lobe(cosines.second.x);
-  irradiance += COEF(cosines.first.y < 0.0 ? 7 : 4) * dice_lobe(cosines.first.y);
-  irradiance += COEF(cosines.second.y < 0.0 ? 6 : 5) * dice_lobe(cosines.second.y);
-  irradiance += COEF(cosines.first.z < 0.0 ? 11 : 8) * dice_lobe(cosines.first.z);
-  irradiance += COEF(cosines.second.z < 0.0 ? 10 : 9) * dice_lobe(cosines.second.z);
+  precise vec3 irradiance = (cosines.first.x < 0.0 ? COEF(3) : COEF(0)) * dice_lobe(cosines.first.x);
+  irradiance += (cosines.second.x < 0.0 ? COEF(2) : COEF(1)) * dice_lobe(cosines.second.x);
+  irradiance += (cosines.first.y < 0.0 ? COEF(7) : COEF(4)) * dice_lobe(cosines.first.y);
+  irradiance += (cosines.second.y < 0.0 ? COEF(6) : COEF(5)) * dice_lobe(cosines.second.y);
+  irradiance += (cosines.first.z < 0.0 ? COEF(11) : COEF(8)) * dice_lobe(cosines.first.z);
+  irradiance += (cosines.second.z < 0.0 ? COEF(10) : COEF(9)) * dice_lobe(cosines.second.z);
   return irradiance;
 }

@@ -72,6 +72,18 @@ vec4 exact_fetch(sampler2DArray maps, ExactTaps taps, int layer) {
   return filtered;
 }
 
+// Layers first to first + 3, a column each; past the last layer, the last one.
+mat4 exact_fetch_4(sampler2DArray maps, ExactTaps taps, int first) {
+  int last = textureSize(maps, 0).z - 1;
+  return mat4(exact_fetch(maps, taps, min(first, last)), exact_fetch(maps, taps, min(first + 1, last)),
+              exact_fetch(maps, taps, min(first + 2, last)), exact_fetch(maps, taps, min(first + 3, last)));
+}
+
+// The same layer of two arrays, a column each.
+mat2x4 exact_fetch_pair(sampler2DArray first, sampler2DArray second, ExactTaps taps, int layer) {
+  return mat2x4(exact_fetch(first, taps, layer), exact_fetch(second, taps, layer));
+}
+
 vec4 exact_bilinear_2d(sampler2D map, vec2 uv) {
   return exact_fetch(map, exact_taps_clamp(uv, textureSize(map, 0)));
 }

@@ -2,6 +2,7 @@
 // After surface.glsl, a coefficients_*.glsl and a basis.
 
 vec3 reflected_light() {
+  load_surface_maps();
   load_coefficients();
   precise vec3 exitance = surface_albedo() * basis_irradiance(surface_normal());
   precise vec3 radiance = exitance * 0.318309886;  // 1/pi

@@ -2,6 +2,8 @@
 // served.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "cpu_shaders/load/host_eval.h"
@@ -33,41 +35,139 @@ void main() {
 }
 )";
 
-}  // namespace
+// Several layers and several textures at once; layers past the last one; texels near and far apart from lane to lane.
+constexpr const char* kSeveral = R"(
+#include "exact/bilinear.glsl"
+uniform sampler2DArray maps;
+uniform sampler2DArray left;
+uniform sampler2DArray right;
+in vec2 uv;
+in float layer;
+out vec4 first[4];
+out vec4 last[4];
+out vec4 any_layer[4];
+out vec4 both[2];
+out vec4 both_at_layer[2];
+void main() {
+  ExactTaps taps = exact_taps_clamp(uv, textureSize(maps, 0).xy);
+  mat4 four = exact_fetch_4(maps, taps, 0);
+  mat4 past_last = exact_fetch_4(maps, taps, 2);
+  mat4 by_lane = exact_fetch_4(maps, taps, int(layer));
+  taps = exact_taps_repeat(uv, textureSize(left, 0).xy);
+  mat2x4 two = exact_fetch_pair(left, right, taps, 1);
+  mat2x4 two_varying = exact_fetch_pair(left, right, taps, int(layer));
+  for (int i = 0; i < 4; ++i) {
+    first[i] = four[i];
+    last[i] = past_last[i];
+    any_layer[i] = by_lane[i];
+  }
+  for (int i = 0; i < 2; ++i) {
+    both[i] = two[i];
+    both_at_layer[i] = two_varying[i];
+  }
+}
+)";
 
-TEST_CASE("the served bilinear filter gives the bits of its GLSL, for every lane count") {
-  const std::string renamed = std::string("#define exact_fetch fetch_as_written\n") + kFetches;
-  const auto calls_runtime = [](const std::string& text) {
-    return translate(resolve_shader("fetch", text, "fetch.frag")).cpp.find("served::exact_fetch") != std::string::npos;
-  };
-  REQUIRE(calls_runtime(kFetches));
-  REQUIRE(!calls_runtime(renamed));
-  const TextureView views[2] = {test_texture(0), test_texture(3)};
-  constexpr std::size_t kRows = 20000;
-  std::vector<float> inputs(3 * kRows);
+std::vector<float> random_rows(std::size_t rows, float spread) {
+  std::vector<float> inputs(3 * rows);
   Random random(7);
   const float special[] = {0.0f, -0.0f, 1.0f, 0.5f, -0.5f, 1e30f, -1e30f, INFINITY, -INFINITY, NAN, 0x1p-140f};
-  for (std::size_t i = 0; i < kRows; ++i) {
+  for (std::size_t i = 0; i < rows; ++i) {
     const auto pick = [&] {
-      return random.bits() % 8 == 0 ? special[random.bits() % 11] : random.uniform(-0.5f, 1.5f);
+      return spread > 0.1f && random.bits() % 8 == 0 ? special[random.bits() % 11]
+                                                     : random.uniform(0.5f - spread, 0.5f + spread);
     };
     inputs[i] = pick();
-    inputs[kRows + i] = pick();
-    inputs[2 * kRows + i] = random.uniform(0, 2.99f);
+    inputs[rows + i] = pick();
+    inputs[2 * rows + i] = random.uniform(0, 2.99f);
   }
+  return inputs;
+}
+
+// Runs `text` as it is and with `name` renamed, which the runtime does not serve, and compares bits.
+void check_served(const std::string& text, const std::string& name, const std::vector<float>& inputs,
+                  std::span<const TextureView> views) {
+  const std::string renamed = "#define " + name + " fetch_as_written\n" + text;
+  const auto calls_runtime = [&](const std::string& source) {
+    return translate(resolve_shader("fetch", source, "fetch.frag")).cpp.find("served::" + name + "<") !=
+           std::string::npos;
+  };
+  REQUIRE(calls_runtime(text));
+  REQUIRE(!calls_runtime(renamed));
+  const std::size_t rows = inputs.size() / 3;
   for (const Number number : {Number::lanes4, Number::lanes8, Number::lanes16}) {
-    const auto served = RowShader("served_fetch", kFetches, number).run(inputs, kRows, views);
-    const auto written = RowShader("fetch_as_written", renamed, number).run(inputs, kRows, views);
+    const auto served = RowShader("served_fetch", text, number).run(inputs, rows, views);
+    const auto written = RowShader("fetch_as_written", renamed, number).run(inputs, rows, views);
     REQUIRE(served.size() == written.size());
     std::size_t differ = 0, first = 0;
     for (std::size_t i = 0; i < served.size(); ++i) {
       const bool both_nan = std::isnan(served[i]) && std::isnan(written[i]);
       if (!both_nan && bits_of(served[i]) != bits_of(written[i]) && differ++ == 0) first = i;
     }
-    CHECK_MESSAGE(differ == 0, "lanes of number ", static_cast<int>(number), ": ", differ, " differ; uv ",
-                  hex(inputs[first % kRows]), " ", hex(inputs[kRows + first % kRows]), " component ", first / kRows,
-                  " is ", hex(served[first]), ", written ", hex(written[first]));
+    CHECK_MESSAGE(differ == 0, name, ", lanes of number ", static_cast<int>(number), ": ", differ, " differ; uv ",
+                  hex(inputs[first % rows]), " ", hex(inputs[rows + first % rows]), " component ", first / rows, " is ",
+                  hex(served[first]), ", written ", hex(written[first]));
   }
+}
+
+// Copies of array textures as the renderer lays them out for several reads at once.
+struct SideBySide {
+  std::vector<float> texels;
+  TextureView layers(const TextureView& from) {
+    const std::ptrdiff_t padded = (from.layers + 3) / 4 * 4;
+    texels.resize(static_cast<std::size_t>(from.width * from.height * padded * 4));
+    for (std::ptrdiff_t y = 0; y < from.height; ++y)
+      for (std::ptrdiff_t x = 0; x < from.width; ++x)
+        for (std::ptrdiff_t l = 0; l < padded; ++l)
+          std::copy_n(from.texels + std::min<std::ptrdiff_t>(l, from.layers - 1) * from.layer_pitch +
+                          y * from.row_pitch + x * 4,
+                      4, texels.data() + ((y * from.width + x) * padded + l) * 4);
+    TextureView view = from;
+    view.texels = texels.data();
+    view.texel_pitch = padded * 4;
+    view.row_pitch = view.texel_pitch * from.width;
+    view.layer_pitch = 4;
+    return view;
+  }
+  std::pair<TextureView, TextureView> pair(const TextureView& a, const TextureView& b) {
+    texels.resize(static_cast<std::size_t>(a.width * a.height * a.layers * 8));
+    float* to = texels.data();
+    for (std::ptrdiff_t l = 0; l < a.layers; ++l)
+      for (std::ptrdiff_t y = 0; y < a.height; ++y)
+        for (std::ptrdiff_t x = 0; x < a.width; ++x)
+          for (const TextureView* from : {&a, &b})
+            to = std::copy_n(from->texels + l * from->layer_pitch + y * from->row_pitch + x * 4, 4, to);
+    TextureView left = a, right = b;
+    left.texels = texels.data();
+    right.texels = texels.data() + 4;
+    for (TextureView* view : {&left, &right}) {
+      view->texel_pitch = 8;
+      view->row_pitch = a.width * 8;
+      view->layer_pitch = view->row_pitch * a.height;
+    }
+    return {left, right};
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the served bilinear filter gives the bits of its GLSL, for every lane count") {
+  const TextureView views[2] = {test_texture(0), test_texture(3)};
+  check_served(kFetches, "exact_fetch", random_rows(20000, 1.0f), views);
+}
+
+TEST_CASE("fetches of several layers or textures give the bits of their GLSL, side by side in memory or not") {
+  const TextureView& array = test_texture(3);
+  SideBySide four, two;
+  const TextureView together = four.layers(array);
+  const auto [left, right] = two.pair(array, array);
+  for (const float spread : {1.0f, 0.01f})  // 0.01: all lanes of a group at the same texels
+    for (const char* name : {"exact_fetch_4", "exact_fetch_pair"}) {
+      CAPTURE(spread);
+      const auto inputs = random_rows(4000, spread);
+      check_served(kSeveral, name, inputs, std::array{array, array, array});
+      check_served(kSeveral, name, inputs, std::array{together, left, right});
+    }
 }
 
 TEST_CASE("in double the transcendentals of shaders/exact/ are good to 1e-15, not to their float polynomials") {

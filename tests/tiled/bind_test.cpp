@@ -153,3 +153,45 @@ TEST_CASE("a number that the module has no code for is refused with its reason")
   CHECK_THROWS_WITH(draw_tiled(test::inside_bundle(8, 8, 1, 1), module, options),
                     "shader \"echo\" has no code for float64: tone.frag:12: floatBitsToInt");
 }
+
+TEST_CASE("textures that are read together lie side by side, every texel where the views say") {
+  Bundle bundle = test::inside_bundle(8, 8, 1, 1);
+  const auto add = [&](const char* name, std::uint32_t layers) {
+    Texture texture;
+    texture.name = name;
+    texture.kind = TextureKind::two_d_array;
+    texture.width = 3, texture.height = 2, texture.layers = layers;
+    for (std::uint32_t i = 0; i < 3 * 2 * layers * 4; ++i)
+      texture.texels.push_back(float(i) + 1000.0f * float(bundle.textures.size()));
+    bundle.textures.push_back(std::move(texture));
+  };
+  add("coefficients", 6);
+  add("albedo", 2);
+  add("normals", 2);
+  Wishes wishes;
+  wishes.textures = 3;
+  wishes.resources = {{"coefficients", ResourceKind::sampler_2d_array, 0, 0, true, true, -1},
+                      {"albedo", ResourceKind::sampler_2d_array, 1, 0, true, false, 2},
+                      {"normals", ResourceKind::sampler_2d_array, 2, 0, true, false, -1}};
+  const auto texel = [](const TextureView& view, std::ptrdiff_t x, std::ptrdiff_t y, std::ptrdiff_t layer) {
+    return view.texels + layer * view.layer_pitch + y * view.row_pitch + x * view.texel_pitch;
+  };
+  const tiled::BoundDraw bound = tiled::bind(bundle, wishes.module(), AttributeMode::exact);
+  for (std::size_t t = 0; t < 3; ++t) {
+    const TextureView& view = bound.textures[t];
+    for (std::ptrdiff_t layer = 0; layer < view.layers; ++layer)
+      for (std::ptrdiff_t y = 0; y < 2; ++y)
+        for (std::ptrdiff_t x = 0; x < 3; ++x)
+          for (std::ptrdiff_t c = 0; c < 4; ++c)
+            CHECK(texel(view, x, y, layer)[c] ==
+                  bundle.textures[t].texels[std::size_t(((layer * 2 + y) * 3 + x) * 4 + c)]);
+  }
+  CHECK(bound.textures[0].layer_pitch == 4);
+  CHECK(bound.textures[0].texel_pitch == 32);  // eight layers: the last one is there three times
+  CHECK(*texel(bound.textures[0], 2, 1, 7) == *texel(bound.textures[0], 2, 1, 5));
+  CHECK(bound.textures[2].texels == bound.textures[1].texels + 4);
+
+  bundle.textures[2].width = 2, bundle.textures[2].height = 3;  // another size: left as it is
+  const tiled::BoundDraw apart = tiled::bind(bundle, wishes.module(), AttributeMode::exact);
+  CHECK(apart.textures[1].texels == bundle.textures[1].texels.data());
+}

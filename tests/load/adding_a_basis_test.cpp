@@ -36,7 +36,7 @@ struct Example {
     const std::string page((std::istreambuf_iterator<char>(in)), {});
     line = block(page, "cpp");
     std::smatch fields;
-    const std::regex format(R"rx(BASIS\((\w+), (\w+\.glsl), sphere, (\d+), true, least_squares, "([^"]+)"\)\n)rx");
+    const std::regex format(R"rx(BASIS\((\w+), (\w+\.glsl), sphere, (\d+), true, least_squares, all, "([^"]+)"\)\n)rx");
     REQUIRE(std::regex_match(line, fields, format));
     const auto field = [&](int i) {
       return std::string_view(line).substr(std::size_t(fields.position(i)), std::size_t(fields.length(i)));

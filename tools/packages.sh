@@ -7,7 +7,7 @@ packages=(ca-certificates cmake ninja-build g++ pkg-config
   glslang-dev glslang-tools spirv-headers libglm-dev libopenimageio-dev doctest-dev
   libegl-dev libgl-dev libegl1 libegl-mesa0 libgl1-mesa-dri libosmesa6 libosmesa6-dev
   libcairo2-dev fonts-dejavu-core
-  libeigen3-dev libembree-dev libtbb-dev libassimp-dev libcli11-dev nlohmann-json3-dev libfmt-dev)
+  libeigen3-dev libembree-dev libtbb-dev libassimp-dev libcli11-dev nlohmann-json3-dev libfmt-dev gdb)
 if [ "${1:-}" = all ]; then
   packages+=(clang libclang-rt-14-dev g++-aarch64-linux-gnu qemu-user)
 fi

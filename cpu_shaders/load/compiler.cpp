@@ -89,7 +89,10 @@ Compiler find_compiler(const std::string& asked) {
 }
 
 ProgramResult run_program(const std::vector<std::string>& words) {
+  // Limits are inherited: by the compiler proper, which the command starts.
+  static const std::string limits = "ulimit -t 300 2>/dev/null; ulimit -v 4194304 2>/dev/null; exec \"$@\"";
   std::vector<char*> arguments;
+  for (const char* word : {"/bin/sh", "-c", limits.c_str(), "sh"}) arguments.push_back(const_cast<char*>(word));
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   int ends[2];

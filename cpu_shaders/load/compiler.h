@@ -20,7 +20,7 @@ struct ProgramResult {
   int status;          // exit status; -1: could not be started, or was killed
   std::string output;  // stdout and stderr
 };
-// Runs words[0], a path, and waits for it.
+// Runs words[0], a path, and waits for it. It and what it starts may take 300 s of processor time and 4 GiB of addresses each.
 ProgramResult run_program(const std::vector<std::string>& words);
 
 }  // namespace twinshade

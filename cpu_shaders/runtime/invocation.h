@@ -84,10 +84,18 @@ class ShaderBase {
   TWINSHADE_INLINE void begin(std::uint32_t first) {
     first_ = first;
     kept = live();
+    iterations_left_ = kMostIterations;
   }
   TWINSHADE_INLINE void finish() const { detail::store_mask<N>(call_.kept + first_, kept); }
 
   B kept;  // live and not discarded so far
+
+  // Before each iteration of a loop whose end nobody can tell. cost: of the iterations and calls within, 1 at least.
+  TWINSHADE_INLINE void iterate(std::uint32_t cost, const char* where) {
+    iterations_left_ -= cost;
+    if (iterations_left_ < 0) [[unlikely]]
+      call_.endless_loop(where);
+  }
 
  protected:
   template <class T>
@@ -143,6 +151,7 @@ class ShaderBase {
   const ShaderData& data_;
   const ShadeCall& call_;
   std::uint32_t first_ = 0;
+  std::int64_t iterations_left_ = 0;
 };
 
 // The body of an entry: S<N> is run over the block in steps of N::width. Static: g++ 12 gives a function whose template

@@ -5,11 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/endless_loop.h"
 #include "bundle/bundle.h"
 
 namespace twinshade {
 
-inline constexpr std::uint32_t kAbiVersion = 2;
+inline constexpr std::uint32_t kAbiVersion = 3;
 
 // What a piece of translated code was built for. The numbers are an order: a machine that has avx512 has all before it.
 enum class Isa : std::uint8_t { baseline = 0, avx2 = 1, avx512 = 2 };  // baseline: x86-64-v2, or AArch64 with NEON
@@ -88,6 +89,7 @@ struct ShadeCall {
   void* outputs;        // real; helpers and discarded invocations leave theirs undefined
   void* frag_depth;     // real; written only if the shader writes gl_FragDepth
   std::uint32_t* kept;  // out: ~0u where live and not discarded
+  void (*endless_loop)(const char* where) = stop_endless_loop;
 };
 
 using ShadeFunction = void (*)(const ShaderData&, const ShadeCall&);

@@ -19,6 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kMostIncludes = 100;              // deep
+constexpr std::uintmax_t kMostBytes = 4 << 20;  // of one file
+
 struct File {
   std::string shown;     // in messages
   std::string folder;    // where its own includes are looked for first; built-in: relative to shaders/
@@ -37,9 +40,18 @@ File builtin_file(const std::string& name, std::string_view text) {
   return {"shaders/" + name, fs::path(name).parent_path().string(), "builtin:" + name, std::string(text), true};
 }
 
+void refuse_large_file(const fs::path& path) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(path, error);
+  if (!error && size > kMostBytes)
+    throw UserError(path.string() + ": " + std::to_string(size) + " bytes are more than a shader has: at most " +
+                    std::to_string(kMostBytes));
+}
+
 std::optional<File> open_file(const fs::path& path) {
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return std::nullopt;
+  refuse_large_file(path);
   File file;
   file.shown = path.lexically_normal().string();
   file.folder = path.parent_path().string();
@@ -143,7 +155,10 @@ class Resolver {
     File file = find(from, wanted, where);
     unite_with_builtin(file);
     if (std::find(identities_.begin(), identities_.end(), file.identity) == identities_.end()) {
+      if (++depth_ > kMostIncludes)
+        throw UserError(where + "files are included more than " + std::to_string(kMostIncludes) + " deep");
       resolve(std::move(file));
+      --depth_;
       if (body_.empty() || body_.back() != '\n') body_ += '\n';
     }
     line_directive(line.number + static_cast<int>(std::count(line.text.begin(), line.text.end(), '\n')) + 1,
@@ -172,7 +187,7 @@ class Resolver {
   const std::vector<std::string>& include_folders_;
   std::vector<std::string> identities_, files_;
   std::string version_line_, prologue_, body_;
-  int version_ = 450;
+  int version_ = 450, depth_ = 0;
   bool es_ = false;
 };
 
@@ -196,6 +211,7 @@ ShaderSource resolve_shader(const std::string& name, const std::string& main_tex
 }
 
 ShaderSource load_shader(const std::string& path, const std::vector<std::string>& include_folders) {
+  refuse_large_file(path);
   const std::string text = read_file(path);
   if (text.find('\0') != std::string::npos) throw UserError(path + ": not GLSL: it has zero bytes");
   return resolve_shader(fs::path(path).stem().string(), text, path, include_folders);

@@ -9,6 +9,8 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "cpu_shaders/translate/glslang_trial.h"
+#include "cpu_shaders/translate/limits.h"
 
 namespace twinshade {
 namespace {
@@ -87,13 +89,7 @@ std::vector<std::uint32_t> compile(const ShaderSource& source, const std::string
   return words;
 }
 
-}  // namespace
-
-std::vector<std::uint32_t> compile_fragment_glsl(const ShaderSource& source) {
-  // The library's first use takes long and its tables are shared.
-  static std::mutex mutex;
-  const std::lock_guard<std::mutex> lock(mutex);
-  static const Process process;
+std::vector<std::uint32_t> compile_any_version(const ShaderSource& source) {
   if (source.es) {
     if (source.version < 300)
       throw UserError(source.files.at(0) + ":1: GLSL ES " + std::to_string(source.version) +
@@ -107,6 +103,18 @@ std::vector<std::uint32_t> compile_fragment_glsl(const ShaderSource& source) {
                     " is not supported: write #version 330 or later");
   return compile(source, with_version(source, "#version " + std::to_string(std::max(source.version, 450)) + "\n"), true,
                  true);
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> compile_fragment_glsl(const ShaderSource& source) {
+  // The library's first use takes long and its tables are shared.
+  static std::mutex mutex;
+  const std::lock_guard<std::mutex> lock(mutex);
+  static const Process process;
+  refuse_large_text(source);
+  if (looks_hostile(source)) try_in_child(source, [&] { compile_any_version(source); });
+  return compile_any_version(source);
 }
 
 }  // namespace twinshade

@@ -354,20 +354,31 @@ void FunctionEmitter::instruction(const Instruction& i) {
     case spv::OpVectorShuffle:
       return define(i, [&] {
         const std::uint32_t size = module_.type_of(i.operands[0]).count;
-        const bool one_vector =
-            std::all_of(i.operands.begin() + 2, i.operands.end(), [&](std::uint32_t k) { return k < size; });
+        const bool same = i.operands[0] == i.operands[1];
+        const auto all_picks = [&](auto condition) {
+          return std::all_of(i.operands.begin() + 2, i.operands.end(), condition);
+        };
         Expression e;
         e.precedence = 1;
         const Expression a = value(i.operands[0]);
         e.reads = a.reads;
+        // Of one vector, or of both joined.
+        const bool one_vector = same || all_picks([&](std::uint32_t k) { return k < size; });
+        const bool other_vector = !same && all_picks([&](std::uint32_t k) { return k >= size; });
         std::string picks;
         for (std::size_t k = 2; k < i.operands.size(); ++k)
-          picks += (k == 2 ? "" : ", ") + std::to_string(i.operands[k]);
-        if (one_vector || i.operands[0] == i.operands[1]) {
+          picks += (k == 2 ? "" : ", ") +
+                   std::to_string((same || other_vector) && i.operands[k] >= size ? i.operands[k] - size : i.operands[k]);
+        if (one_vector) {
           e.text = "swizzle<" + picks + ">(" + a.text + ")";
           return e;
         }
         const Expression b = value(i.operands[1]);
+        if (other_vector) {  // v.yxz = b
+          e.reads = b.reads;
+          e.text = "swizzle<" + picks + ">(" + b.text + ")";
+          return e;
+        }
         e.reads.insert(b.reads.begin(), b.reads.end());
         const std::string joined = "vec<" + std::string(at_.is_varying(i.result) ? "" : "U") +
                                    types_.name(module_.type(i.type).element, true) + ", " +

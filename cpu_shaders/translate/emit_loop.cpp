@@ -21,6 +21,16 @@ std::string signed_literal(std::uint32_t bits) {
   return bits == 0x80000000u ? "-2147483647 - 1" : std::to_string(static_cast<std::int32_t>(bits));
 }
 
+// For a C++ string literal.
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result;
+}
+
 std::string trimmed(const std::string& line) { return line.substr(line.find_first_not_of(' ')); }
 
 // Lines that can stand in the head of a `for`, joined by commas; false if they cannot.
@@ -71,6 +81,7 @@ void FunctionEmitter::loop(const Statement& s) {
   std::string init;
   init.swap(for_init_);
   position(s.file, s.line);
+  const std::string where = module_.position(s.file, s.line).text();
   names_.open();
   std::string own;
   if (masked) {
@@ -112,6 +123,8 @@ void FunctionEmitter::loop(const Statement& s) {
     out_.line("B " + iteration + " = " + own + ";");
     masks_.push_back({iteration, &s, true, 0});
   }
+  if (const auto counted = info_.counted_loops.find(s.id); counted != info_.counted_loops.end())
+    out_.line("this->iterate(" + std::to_string(counted->second) + ", \"" + escaped(where) + "\");");
   list(s.body, &s, test == nullptr ? 0 : rest);
   if (!iteration.empty()) masks_.pop_back();
   flush();

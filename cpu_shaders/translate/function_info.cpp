@@ -31,11 +31,25 @@ class Gatherer {
       if (s.shape == Shape::discard) info_.discards = true;
       if (s.shape != Shape::code && s.shape != Shape::give_back) info_.mask_matters = true;
     });
+    count_chains();
     constant_tables();
     if (!info_.globals_written.empty() || info_.writes_buffers) info_.mask_matters = true;
   }
 
  private:
+  // A pointer is written out wherever it is used (x[i]++ loads and stores through one), and its indices with it.
+  void count_chains() {
+    std::vector<const Instruction*> chains;
+    for_each_instruction(info_.body.list, [&](const Instruction& i) {
+      if (is_pointer_chain(i)) chains.push_back(&i);
+    });
+    std::for_each(chains.rbegin(), chains.rend(), [&](const Instruction* chain) {
+      const int more = info_.uses[chain->result] - 1;
+      if (more > 0)
+        for (Id id : chain->operands) info_.uses[id] += more;
+    });
+  }
+
   void note(Id root) {
     if (is_local(module_, root) && std::find(info_.locals.begin(), info_.locals.end(), root) == info_.locals.end())
       info_.locals.push_back(root);
@@ -225,6 +239,7 @@ Program analyse(Module module) {
     info.body = structure(program.module, *info.function);
     fold_conditionals(program.module, info.body);
     Gatherer(program, info).run();
+    find_endless_loops(program, info);
   }
   for (Id id : program.callees_first) relate_calls(program, program.functions.at(id));
   for (Id id : program.callees_first) compute_liveness(program, program.functions.at(id));

@@ -36,6 +36,10 @@ struct FunctionInfo {
 
   std::map<Id, std::string> parameter_of;  // name of the parameter that a variable is passed for
 
+  // Loops that count their iterations while they run, by statement id: what an iteration costs.
+  std::map<int, std::uint32_t> counted_loops;
+  std::uint64_t work = 0;  // iterations of the other loops and calls, of one call
+
   // A call can stand anywhere in an expression.
   bool pure() const;
 };
@@ -60,6 +64,9 @@ void simplify(Module& module, Function& function);
 // Turns  if (c) t = a; else t = b;  with pure a and b into t = select(c, a, b), where t is glslang's own temporary (the
 // form that ?:, && and || arrive in), and two pure returns into one.
 void fold_conditionals(Module& module, Body& body);
+
+// Fills FunctionInfo::counted_loops and work; those of the functions that it calls are known. UserError for too many calls.
+void find_endless_loops(const Program& program, FunctionInfo& info);
 
 // Fills the live_* sets of the tree.
 void compute_liveness(Program& program, FunctionInfo& info);

@@ -1,6 +1,7 @@
 #include "cpu_shaders/translate/source_lines.h"
 
 #include <cctype>
+#include <charconv>
 #include <sstream>
 
 namespace twinshade {
@@ -23,6 +24,19 @@ bool has_word(const std::string& text, const std::string& word) {
   return false;
 }
 
+// `#line 12 "file"`, the name optional: `number` becomes that of the line before the next. An author's other forms (macros, other
+// spacing) are glslang's to judge.
+bool read_line_directive(const std::string& text, int& number, std::string& file) {
+  if (text.rfind("#line ", 0) != 0) return false;
+  int given = 0;
+  const auto [end, error] = std::from_chars(text.data() + 6, text.data() + text.size(), given);
+  if (error != std::errc()) return false;
+  number = given - 1;
+  const std::string name = trimmed(text.substr(static_cast<std::size_t>(end - text.data())));
+  if (name.size() > 2 && name.front() == '"' && name.back() == '"') file = name.substr(1, name.size() - 2);
+  return true;
+}
+
 }  // namespace
 
 SourceLines::SourceLines(const ShaderSource& source) {
@@ -31,12 +45,7 @@ SourceLines::SourceLines(const ShaderSource& source) {
   int number = 0;
   while (std::getline(lines, text)) {
     ++number;
-    if (text.rfind("#line ", 0) == 0) {
-      const std::size_t space = text.find(' ', 6);
-      number = std::stoi(text.substr(6)) - 1;
-      if (space != std::string::npos) file = text.substr(space + 2, text.size() - space - 3);
-      continue;
-    }
+    if (read_line_directive(text, number, file)) continue;
     lines_.push_back({file, trimmed(text), number});
     index_[{file, number}] = lines_.size() - 1;
   }
@@ -63,6 +72,10 @@ Position SourceLines::declaration(const std::string& name) const {
   }
   if (mention != nullptr) return {mention->file, mention->number};
   return {lines_.empty() ? std::string("shader") : lines_.front().file, 1};
+}
+
+Position SourceLines::last() const {
+  return lines_.empty() ? Position{"shader", 1} : Position{lines_.back().file, lines_.back().number};
 }
 
 Position SourceLines::mention(const std::vector<std::string>& words) const {

@@ -29,6 +29,9 @@ class SourceLines {
   // such a declaration. SPIR-V gives global variables no position.
   Position declaration(const std::string& name) const;
 
+  // The last line.
+  Position last() const;
+
   // The first line with one of the words.
   Position mention(const std::vector<std::string>& words) const;
 

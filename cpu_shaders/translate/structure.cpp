@@ -4,6 +4,7 @@
 #include <map>
 
 #include "base/error.h"
+#include "cpu_shaders/translate/limits.h"
 
 namespace twinshade::spirv {
 namespace {
@@ -56,7 +57,7 @@ void lower_phis(Module& module, Function& function) {
 
 class Builder {
  public:
-  explicit Builder(const Function& function) {
+  Builder(const Module& module, const Function& function) : module_(module) {
     for (const Block& b : function.blocks) blocks_[b.label] = &b;
   }
 
@@ -72,11 +73,11 @@ class Builder {
   List from(Id label, bool& reaches_end) {
     List list;
     reaches_end = false;
-    Id at = label;
-    while (at != 0) {
-      if (leave(at, list, reaches_end)) return list;
-      at = block(*blocks_.at(at), list);
-    }
+    if (++depth_ > kMostNesting)
+      throw UserError(module_.position(blocks_.at(label)->terminator).text() + ": statements are nested more than " +
+                      std::to_string(kMostNesting) + " deep");
+    for (Id at = label; at != 0 && !leave(at, list, reaches_end);) at = block(*blocks_.at(at), list);
+    --depth_;
     return list;
   }
 
@@ -303,14 +304,15 @@ class Builder {
   std::vector<Exit> exits_;
   std::set<Id> loops_;
   std::set<const Statement*> left_;  // loops and switches that something leaves
-  int next_id_ = 0;
+  const Module& module_;
+  int next_id_ = 0, depth_ = 0;
 };
 
 }  // namespace
 
 Body structure(Module& module, Function& function) {
   lower_phis(module, function);
-  Builder builder(function);
+  Builder builder(module, function);
   Body body;
   bool reaches = false;
   body.list = builder.from(function.blocks.front().label, reaches);

@@ -4,8 +4,20 @@
 
 #include "cpu_shaders/translate/compile_glsl.h"
 #include "cpu_shaders/translate/emit_module.h"
+#include "cpu_shaders/translate/limits.h"
 
 namespace twinshade {
+namespace {
+
+void plant(spirv::Module& module, const std::pair<std::uint32_t, std::uint32_t>& bug) {
+  for (spirv::Function& function : module.functions)
+    for (spirv::Block& block : function.blocks)
+      for (spirv::Instruction& i : block.code)
+        if (i.op == bug.first) i.op = static_cast<spv::Op>(bug.second);
+}
+
+}  // namespace
+
 
 std::string identifier_from(const std::string& name) {
   std::string id;
@@ -18,7 +30,10 @@ Translation translate(const ShaderSource& source, const TranslateOptions& option
   Translation translation;
   translation.identifier = options.identifier.empty() ? identifier_from(source.name) : options.identifier;
   const SourceLines lines(source);
-  const spirv::Program program = spirv::analyse(spirv::parse(compile_fragment_glsl(source), lines));
+  spirv::Module module = spirv::parse(compile_fragment_glsl(source), lines);
+  if (options.planted_bug) plant(module, *options.planted_bug);
+  const spirv::Program program = spirv::analyse(std::move(module));
+  refuse_large_variables(program, lines);
   spirv::NameTable names;
   spirv::Interface interface = spirv::describe_interface(program, lines, names);
   spirv::emit_module(program, interface, lines, names, source, options.readable, translation);

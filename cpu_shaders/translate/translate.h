@@ -1,7 +1,9 @@
 // GLSL to C++: one fragment shader becomes one C++ file in the form of docs/generated-code.md.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cpu_shaders/runtime/shader_abi.h"
@@ -14,6 +16,8 @@ struct TranslateOptions {
   // Readable: each GLSL line as a comment above its C++. Otherwise #line directives, so that debuggers step through the
   // GLSL.
   bool readable = false;
+  // For tests that must notice a wrong translation: every SPIR-V instruction `first` is translated as if it were `second`.
+  std::optional<std::pair<std::uint32_t, std::uint32_t>> planted_bug;
 };
 
 // Reflection with its own storage; ShaderVariable and the others (shader_abi.h) are views of the same facts.

@@ -28,5 +28,7 @@ ivec4 kernel(int a, int b, float x, float y) {
   ivec3 iv = ivec3(a, b, 3);
   iv = iv * 2 - ivec3(1);
   iv[b % 3] = 40;
+  iv[(a + b) % 3]++;
+  --iv[(a * 2 + 1) % 3];
   return ivec4(int((p.x + r.y + q.w) * 4.0f), int((mm[0][0] + tr[2][1] + sum[b % 3].z) * 2.0f), int((wv.z + vw.x + det) * 4.0f), bits * 1000 + iv.x + iv[a % 3]);
 }

@@ -12,6 +12,7 @@ void main() {
   if (v.x > 3.0) w.wzy = vec3(10.0, 20.0, 30.0);
   w.xy.x += 100.0;
   written = w;
+  written.wzyx = written.wzyx;  // every component
   vec4 d = v;
   d[k] = 7.0;
   d[(k + 1) & 3] += d[k];

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <map>
+#include <mutex>
 
 #include "tests/exact/shader_rows.h"
 
@@ -30,6 +32,64 @@ const RowShader& triangle_shader() {
   return shader;
 }
 
+// Irradiance of a basis in lanes, its coefficients some constants between 0.5 and 2.5.
+const RowShader& irradiance_shader(const TechniqueInfo& basis) {
+  static std::mutex mutex;
+  static std::map<std::string, RowShader> shaders;
+  const std::lock_guard lock(mutex);
+  const std::string file(basis.file);
+  if (const auto found = shaders.find(file); found != shaders.end()) return found->second;
+  const std::string text =
+      "#define COEF(i) coefficient(i)\n"
+      "vec3 coefficient(int i) {\n"
+      "  precise vec3 numbers = vec3(float((i * 7 + 3) % 17), float((i * 5 + 1) % 13), float(i % 11));\n"
+      "  precise vec3 scaled = numbers * 0.125 + 0.5;\n"
+      "  return scaled;\n"
+      "}\n"
+      "#include \"basis/" +
+      file +
+      "\"\n"
+      "in vec3 direction;\nout vec3 irradiance;\nvoid main() {\n"
+      // As the host's own evaluation: a direction with a NaN counts as the zero vector
+      "  bool defined = direction.x == direction.x && direction.y == direction.y && direction.z == direction.z;\n"
+      "  irradiance = basis_irradiance(defined ? direction : vec3(0.0));\n}\n";
+  return shaders.try_emplace(file, "irradiance_" + std::string(basis.name), text).first->second;
+}
+
+std::vector<float> component_major(const std::vector<glm::dvec3>& directions) {
+  std::vector<float> inputs;
+  inputs.reserve(3 * directions.size());
+  for (int c = 0; c < 3; ++c)
+    for (const glm::dvec3& d : directions) inputs.push_back(float(d[c]));
+  return inputs;
+}
+
+// Vectors whose dot product with a direction is its barycentric coordinate in a face.
+struct FacePlanes {
+  std::array<int, 3> face;
+  glm::dvec3 normal[3];
+  glm::dvec3 operator()(const glm::dvec3& n) const {
+    return {glm::dot(normal[0], n), glm::dot(normal[1], n), glm::dot(normal[2], n)};
+  }
+};
+const std::vector<FacePlanes>& face_planes() {
+  static const std::vector<FacePlanes> planes = [] {
+    std::vector<FacePlanes> all;
+    for (const std::array<int, 3>& face : icosahedron_faces()) {
+      FacePlanes& p = all.emplace_back();
+      p.face = face;
+      for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 unit(0);
+        unit[axis] = 1;
+        const glm::dvec3 b = barycentric(face, unit);
+        for (int k = 0; k < 3; ++k) p.normal[k][axis] = b[k];
+      }
+    }
+    return all;
+  }();
+  return planes;
+}
+
 // Why it is not the face that contains n, or null.
 const char* wrong(const glm::dvec3& n, const std::array<int, 3>& picked, const glm::dvec3& b) {
   std::array<int, 3> sorted = picked;
@@ -40,9 +100,9 @@ const char* wrong(const glm::dvec3& n, const std::array<int, 3>& picked, const g
   if (std::isnan(n.x + n.y + n.z)) return b == glm::dvec3(0) ? nullptr : "NaN does not count as zero";
   if (glm::length(barycentric(picked, n) - b) > 5e-7) return "wrong barycentric coordinates";
   // Clearly inside one face: that one, no other
-  for (const std::array<int, 3>& face : faces) {
-    const glm::dvec3 inside = barycentric(face, n);
-    if (std::min({inside.x, inside.y, inside.z}) > 3e-7 && sorted != face) return "another face contains it";
+  for (const FacePlanes& other : face_planes()) {
+    const glm::dvec3 inside = other(n);
+    if (std::min({inside.x, inside.y, inside.z}) > 3e-7 && sorted != other.face) return "another face contains it";
   }
   return nullptr;
 }
@@ -101,23 +161,18 @@ glm::dvec3 awkward_direction(Uniform& uniform) {
 }
 
 int count_not_finite(const TechniqueInfo& basis, const std::vector<glm::dvec3>& directions) {
-  std::vector<glm::dvec3> coefficients = random_vectors(basis.count, 37);
-  for (glm::dvec3& c : coefficients) c += 1.5;
-  const std::vector<glm::dvec3> e = irradiance(basis.name, coefficients, directions, Number::scalar).rgb;
+  const std::size_t rows = directions.size();
+  const std::vector<float> e = irradiance_shader(basis).run(component_major(directions), rows);
   int bad = 0;
-  for (std::size_t i = 0; i < e.size(); ++i)
-    if (!std::isfinite(e[i].x + e[i].y + e[i].z) && bad++ < 5)
-      std::fprintf(stderr, "%s at %s\n", std::string(basis.name).c_str(), hex(directions[i]).c_str());
+  for (std::size_t r = 0; r < rows; ++r)
+    if (!std::isfinite(e[r] + e[rows + r] + e[2 * rows + r]) && bad++ < 5)
+      std::fprintf(stderr, "%s at %s\n", std::string(basis.name).c_str(), hex(directions[r]).c_str());
   return bad;
 }
 
 int count_wrong_triangles(const std::vector<glm::dvec3>& directions) {
   const std::size_t rows = directions.size();
-  std::vector<float> inputs;
-  inputs.reserve(3 * rows);
-  for (int c = 0; c < 3; ++c)
-    for (const glm::dvec3& d : directions) inputs.push_back(float(d[c]));
-  const std::vector<float> outputs = triangle_shader().run(inputs, rows);
+  const std::vector<float> outputs = triangle_shader().run(component_major(directions), rows);
   int bad = 0;
   for (std::size_t r = 0; r < rows; ++r) {
     const std::array<int, 3> picked = {int(outputs[r]), int(outputs[rows + r]), int(outputs[2 * rows + r])};

@@ -25,7 +25,7 @@
 namespace twinshade {
 namespace {
 
-constexpr rlim_t kMostSeconds = 10, kMostBytes = rlim_t{1} << 30;
+constexpr rlim_t kMostSeconds = 10;
 constexpr int kOutOfMemory = 3;
 
 void limit(__rlimit_resource resource, rlim_t value) {
@@ -42,6 +42,7 @@ void limit(__rlimit_resource resource, rlim_t value) {
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, kMostSeconds);  // a child's clock starts at 0
 #ifndef TWINSHADE_SHADOW_MEMORY     // which takes terabytes of addresses
+  constexpr rlim_t kMostBytes = rlim_t{1} << 30;
   rlim_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
   limit(RLIMIT_AS, pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + kMostBytes);

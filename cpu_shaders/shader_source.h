@@ -8,7 +8,9 @@
 
 namespace twinshade {
 
-// One fragment shader, whole. Lines of `text` map back to files through `files`: the text contains
+enum class ShaderStage : std::uint8_t { fragment, compute };
+
+// One fragment or compute shader, whole. Lines of `text` map back to files through `files`: the text contains
 //   #line N "path"     (GL_GOOGLE_cpp_style_line_directive; what glslang gets)
 // and gl_text() turns those into  #line N k  for drivers, k an index into files.
 struct ShaderSource {
@@ -17,6 +19,7 @@ struct ShaderSource {
   std::vector<std::string> files;  // as they appear in messages; files[0] is the main file
   int version = 450;               // of the author's #version line, 450 where there is none
   bool es = false;
+  ShaderStage stage = ShaderStage::fragment;  // compute where the name of the main file ends in .comp
 };
 
 // Searches, in order: the folder of the including file, then `include_folders`, then the built-in shaders (embedded in the
@@ -32,7 +35,7 @@ std::string gl_text(const ShaderSource& source, const std::string& version_line,
 // Rewrites the "k:line" or "k(line)" positions of a Mesa log into "file:line".
 std::string map_driver_log(const ShaderSource& source, const std::string& log);
 
-// SHA-256 of version, es and text.
+// SHA-256 of version, es, stage and text.
 std::string source_hash(const ShaderSource& source);
 
 }  // namespace twinshade

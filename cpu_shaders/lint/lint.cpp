@@ -10,7 +10,7 @@
 namespace twinshade {
 
 std::vector<LintFinding> lint(const ShaderSource& source) {
-  compile_fragment_glsl(source);  // the parser below relies on valid GLSL
+  compile_glsl(source);  // the parser below relies on valid GLSL
   const lint_detail::TokenList tokens = lint_detail::tokenize(source);
   std::vector<LintFinding> findings;
   const auto report = [&](const lint_detail::Expression& where, const LintRule& rule, const std::string& operation) {

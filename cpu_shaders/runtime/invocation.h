@@ -76,6 +76,7 @@ class ShaderBase {
   using real = typename N::real;
   using F = typename N::F;
   using I = typename N::I;
+  using U = typename N::U;
   using B = typename N::B;
 
   TWINSHADE_INLINE ShaderBase(const ShaderData& data, const ShadeCall& call) : data_(data), call_(call) {}
@@ -124,6 +125,30 @@ class ShaderBase {
   TWINSHADE_INLINE I primitive_id() const {
     return N::U::load(call_.primitive_id + first_).template to<std::int32_t>();
   }
+  // --- compute; sx, sy, sz: the local size
+  using UVec3 = vec<Plain<std::uint32_t, 1>, 3>;
+  TWINSHADE_INLINE UVec3 work_group_id() const { return uniform_triple(call_.compute->group); }
+  TWINSHADE_INLINE UVec3 num_work_groups() const { return uniform_triple(call_.compute->group_count); }
+  TWINSHADE_INLINE U local_invocation_index() const {
+    U lane;
+    for (int i = 0; i < N::width; ++i) lane.set_lane(i, static_cast<std::uint32_t>(i));
+    return lane + U(call_.compute->first + first_);
+  }
+  template <std::uint32_t sx, std::uint32_t sy, std::uint32_t sz>
+  TWINSHADE_INLINE vec<U, 3> local_invocation_id() const {
+    const U index = local_invocation_index();
+    return {index % U(sx), index / U(sx) % U(sy), index / U(sx * sy)};
+  }
+  template <std::uint32_t sx, std::uint32_t sy, std::uint32_t sz>
+  TWINSHADE_INLINE vec<U, 3> global_invocation_id() const {
+    using UU = Plain<std::uint32_t, 1>;
+    return work_group_id() * UVec3(UU(sx), UU(sy), UU(sz)) + local_invocation_id<sx, sy, sz>();
+  }
+  TWINSHADE_INLINE BufferView shared(std::uint32_t offset, std::uint32_t size) const {
+    return {call_.compute->shared + offset, size};
+  }
+  TWINSHADE_INLINE void barrier() const { call_.compute->barrier(call_.compute->barrier_context); }
+
   TWINSHADE_INLINE void frag_depth(const F& depth) const { detail::store_component<N>(at(call_.frag_depth, 0), depth); }
 
   TWINSHADE_INLINE Sampler2D<real> texture_2d(std::uint32_t slot) const { return {&data_.textures[slot]}; }
@@ -136,6 +161,10 @@ class ShaderBase {
   }
 
  private:
+  static TWINSHADE_INLINE UVec3 uniform_triple(const std::uint32_t (&n)[3]) {
+    using UU = Plain<std::uint32_t, 1>;
+    return {UU(n[0]), UU(n[1]), UU(n[2])};
+  }
   TWINSHADE_INLINE const real* at(const void* array, std::uint32_t component) const {
     return static_cast<const real*>(array) + std::size_t{component} * call_.stride + first_;
   }

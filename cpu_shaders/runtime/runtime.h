@@ -16,3 +16,4 @@
 #include "cpu_shaders/runtime/served.h"
 #include "cpu_shaders/runtime/table.h"
 #include "cpu_shaders/runtime/texture.h"
+#include "cpu_shaders/runtime/texture_forms.h"

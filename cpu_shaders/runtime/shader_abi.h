@@ -10,7 +10,7 @@
 
 namespace twinshade {
 
-inline constexpr std::uint32_t kAbiVersion = 3;
+inline constexpr std::uint32_t kAbiVersion = 4;
 
 // What a piece of translated code was built for. The numbers are an order: a machine that has avx512 has all before it.
 enum class Isa : std::uint8_t { baseline = 0, avx2 = 1, avx512 = 2 };  // baseline: x86-64-v2, or AArch64 with NEON
@@ -35,6 +35,7 @@ struct ShaderUniform {  // a leaf of a uniform outside any block: structs are fl
   std::uint32_t array_length;                 // 0: not an array
   std::uint32_t offset;                       // bytes into ShaderData::uniforms
   std::uint32_t array_stride, matrix_stride;  // bytes
+  const std::uint32_t* initial = nullptr;     // the initialiser's words, element-major, column-major; null: none
 };
 
 enum class ResourceKind : std::uint8_t { uniform_block, storage_buffer, sampler_2d, sampler_2d_array, sampler_cube };
@@ -73,6 +74,16 @@ struct ShaderData {  // the same for all invocations of a draw
   const BufferView* buffers;
 };
 
+// Where a block of compute invocations is: all of it in one work group.
+struct ComputeCall {
+  std::uint32_t group[3];        // gl_WorkGroupID
+  std::uint32_t group_count[3];  // gl_NumWorkGroups
+  std::uint32_t first;           // gl_LocalInvocationIndex of the block's first invocation
+  std::byte* shared;             // ShaderModule::shared_bytes, the work group's own
+  void (*barrier)(void*);        // returns when all invocations of the group have called it
+  void* barrier_context;
+};
+
 // A block of fragment invocations. Invocations 4q .. 4q+3 are one 2 x 2 quad: (x,y) (x+1,y) (x,y+1) (x+1,y+1), x and y
 // even. count is a multiple of 16; pad with dead quads (live = 0, any finite inputs). Arrays are structures of arrays:
 // component c of invocation i is at [c * stride + i]; 64-byte aligned, stride a multiple of 16. "real" is float, or
@@ -90,6 +101,9 @@ struct ShadeCall {
   void* frag_depth;     // real; written only if the shader writes gl_FragDepth
   std::uint32_t* kept;  // out: ~0u where live and not discarded
   void (*endless_loop)(const char* where) = stop_endless_loop;
+  // Compute shaders only, whose count is a multiple of the lanes of their number type, and which use `live` and `kept`
+  // alone of the above.
+  const ComputeCall* compute = nullptr;
 };
 
 using ShadeFunction = void (*)(const ShaderData&, const ShadeCall&);
@@ -117,6 +131,9 @@ struct ShaderModule {
   const char* no_float64_reason;  // null, or why there is no float64 entry ("file:line: floatBitsToInt ...")
   const ShaderEntry* entries;
   std::uint32_t entry_count;
+  std::uint32_t local_size[3] = {0, 0, 0};  // of a compute shader; zeros: a fragment shader
+  std::uint32_t shared_bytes = 0;
+  bool uses_barrier = false;
 };
 
 // Every shared object made from a user's shader exports this symbol.

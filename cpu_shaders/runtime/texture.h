@@ -114,6 +114,30 @@ TWINSHADE_INLINE auto sample(const TextureView& view, const F& s, const F& t, co
   return lerp_texels(low, high, y.weight);
 }
 
+template <Lane F>
+struct CubeFace {
+  F s, t;
+  typename F::template with<std::int32_t> face;
+};
+
+// OpenGL 4.5 table 8.19: face order +X -X +Y -Y +Z -Z.
+template <Lane F>
+TWINSHADE_INLINE CubeFace<F> cube_face(const vec<F, 3>& p) {
+  using I = typename F::template with<std::int32_t>;
+  using E = typename F::element;
+  const F ax = lanes_abs(p.x), ay = lanes_abs(p.y), az = lanes_abs(p.z);
+  const auto on_z = az >= lanes_max(ax, ay);
+  const auto on_x = (ax > ay) & !on_z;
+  const F major = select(on_z, p.z, select(on_x, p.x, p.y));
+  const auto negative = major < F(E(0));
+  const F sc = select(on_z, select(negative, -p.x, p.x), select(on_x, select(negative, p.z, -p.z), p.x));
+  const F tc = select(on_z | on_x, -p.y, select(negative, -p.z, p.z));
+  const F scale = F(E(0.5)) / lanes_abs(major);
+  const F half(E(0.5));
+  const I face = select(on_z, I(4), select(on_x, I(0), I(2))) + select(negative, I(1), I(0));
+  return {sc * scale + half, tc * scale + half, face};
+}
+
 }  // namespace detail
 
 namespace glsl {
@@ -156,20 +180,8 @@ TWINSHADE_INLINE auto textureLod(Sampler2DArray<Real> s, const vec<F, 3>& p, con
 }
 template <class Real, Lane F, class Lod>
 TWINSHADE_INLINE auto textureLod(SamplerCube<Real> s, const vec<F, 3>& p, const Lod&) {
-  using I = typename F::template with<std::int32_t>;
-  using E = typename F::element;
-  const F ax = lanes_abs(p.x), ay = lanes_abs(p.y), az = lanes_abs(p.z);
-  const auto on_z = az >= lanes_max(ax, ay);
-  const auto on_x = (ax > ay) & !on_z;
-  const F major = select(on_z, p.z, select(on_x, p.x, p.y));
-  const auto negative = major < F(E(0));
-  // OpenGL 4.5 table 8.19: face order +X -X +Y -Y +Z -Z.
-  const F sc = select(on_z, select(negative, -p.x, p.x), select(on_x, select(negative, p.z, -p.z), p.x));
-  const F tc = select(on_z | on_x, -p.y, select(negative, -p.z, p.z));
-  const F scale = F(E(0.5)) / lanes_abs(major);
-  const F half(E(0.5));
-  const I face = select(on_z, I(4), select(on_x, I(0), I(2))) + select(negative, I(1), I(0));
-  return detail::sample<Real>(*s.view, sc * scale + half, tc * scale + half, face, Wrap::clamp_to_edge);
+  const auto at = detail::cube_face(p);
+  return detail::sample<Real>(*s.view, at.s, at.t, at.face, Wrap::clamp_to_edge);
 }
 
 // One level: implicit derivatives have nothing to choose.

@@ -110,6 +110,7 @@ class Resolver {
     source.files = files_;
     source.version = version_;
     source.es = es_;
+    if (fs::path(files_.front()).extension() == ".comp") source.stage = ShaderStage::compute;
     return source;
   }
 
@@ -220,6 +221,7 @@ ShaderSource load_shader(const std::string& path, const std::vector<std::string>
 std::string source_hash(const ShaderSource& source) {
   Sha256 hash;
   hash.add(std::to_string(source.version) + (source.es ? " es\n" : "\n"));
+  if (source.stage == ShaderStage::compute) hash.add("compute\n");
   hash.add(source.text);
   return hash.hex();
 }

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "cpu_shaders/translate/find_recursion.h"
 #include "cpu_shaders/translate/glslang_trial.h"
 #include "cpu_shaders/translate/limits.h"
 
@@ -17,8 +18,9 @@ namespace {
 
 constexpr const char* kLineExtension = "#extension GL_GOOGLE_cpp_style_line_directive : require\n";
 
-// GLSL ES 300 has no SPIR-V: it is checked as what it says it is, then translated as ES 310. Desktop 330 to 400 lack
-// `precise` and friends in name only; what they accept means the same in 450.
+// GLSL ES 300 has no SPIR-V: it is checked as what it says it is, then translated as ES 310. Desktop GLSL is read as
+// the version that it says it is (`sample` and `buffer` are names there, not keywords), or as 450 where that version
+// lacks something that it uses: `precise`, say, which means the same in all.
 std::string with_version(const ShaderSource& source, const std::string& version_line) {
   const std::string& text = source.text;
   const bool has_version = text.rfind("#version", 0) == 0;
@@ -50,7 +52,8 @@ struct Process {
 
 std::vector<std::uint32_t> compile(const ShaderSource& source, const std::string& text, bool opengl_client,
                                    bool make_spirv) {
-  glslang::TShader shader(EShLangFragment);
+  const EShLanguage stage = source.stage == ShaderStage::compute ? EShLangCompute : EShLangFragment;
+  glslang::TShader shader(stage);
   const char* strings[] = {text.c_str()};
   const char* names[] = {source.files.at(0).c_str()};
   const int lengths[] = {static_cast<int>(text.size())};
@@ -59,19 +62,20 @@ std::vector<std::uint32_t> compile(const ShaderSource& source, const std::string
   shader.setAutoMapBindings(true);
   EShMessages messages = EShMsgDefault;
   if (opengl_client) {
-    shader.setEnvInput(glslang::EShSourceGlsl, EShLangFragment, glslang::EShClientOpenGL, 100);
+    shader.setEnvInput(glslang::EShSourceGlsl, stage, glslang::EShClientOpenGL, 100);
     shader.setEnvClient(glslang::EShClientOpenGL, glslang::EShTargetOpenGL_450);
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_0);
     messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgDebugInfo);
   }
   if (!shader.parse(GetDefaultResources(), 110, false, messages))
     throw UserError(first_error(source, shader.getInfoLog()));
+  refuse_recursion(*shader.getIntermediate(), source);
   glslang::TProgram program;
   program.addShader(&shader);
   if (!program.link(messages)) throw UserError(first_error(source, program.getInfoLog()));
   if (!make_spirv) return {};
   if (!program.mapIO()) throw UserError(first_error(source, program.getInfoLog()));
-  const glslang::TIntermediate* tree = program.getIntermediate(EShLangFragment);
+  const glslang::TIntermediate* tree = program.getIntermediate(stage);
   // Without a body for main there is a tree, but nothing to run.
   if (tree == nullptr || tree->getNumEntryPoints() == 0)
     throw UserError(source.files.at(0) + ": the shader has no main()");
@@ -101,13 +105,24 @@ std::vector<std::uint32_t> compile_any_version(const ShaderSource& source) {
   if (source.version < 330)
     throw UserError(source.files.at(0) + ":1: GLSL " + std::to_string(source.version) +
                     " is not supported: write #version 330 or later");
-  return compile(source, with_version(source, "#version " + std::to_string(std::max(source.version, 450)) + "\n"), true,
-                 true);
+  const auto as_version = [&](int version) {
+    return compile(source, with_version(source, "#version " + std::to_string(version) + "\n"), true, true);
+  };
+  if (source.version >= 450) return as_version(source.version);
+  try {
+    return as_version(source.version);
+  } catch (const UserError& error) {
+    try {
+      return as_version(450);
+    } catch (const UserError&) {
+      throw error;
+    }
+  }
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> compile_fragment_glsl(const ShaderSource& source) {
+std::vector<std::uint32_t> compile_glsl(const ShaderSource& source) {
   // The library's first use takes long and its tables are shared.
   static std::mutex mutex;
   const std::lock_guard<std::mutex> lock(mutex);

@@ -8,7 +8,8 @@
 
 namespace twinshade {
 
-// Fragment stage. GLSL 330-460 and ES 300-320. UserError with glslang's first message, at the author's file and line.
-std::vector<std::uint32_t> compile_fragment_glsl(const ShaderSource& source);
+// GLSL 330-460 and ES 300-320. UserError with glslang's first message, at the
+// author's file and line.
+std::vector<std::uint32_t> compile_glsl(const ShaderSource& source);
 
 }  // namespace twinshade

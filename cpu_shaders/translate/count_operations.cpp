@@ -158,7 +158,7 @@ class Counter {
 
 OperationCount count_operations(const ShaderSource& source, const std::string& function, const std::string& free) {
   const SourceLines lines(source);
-  const Program program = analyse(parse(compile_fragment_glsl(source), lines));
+  const Program program = analyse(parse(compile_glsl(source), lines));
   for (const auto& [id, info] : program.functions)
     if (info.function->name == function) return Counter(program, free).function(id);
   throw UserError("shader " + source.name + " has no function " + function + " that its main uses");

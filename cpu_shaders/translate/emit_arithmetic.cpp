@@ -198,12 +198,26 @@ bool FunctionEmitter::texture(const Instruction& i) {
     case spv::OpImageSampleImplicitLod:
     case spv::OpImageSampleExplicitLod: {
       if (has(spv::ImageOperandsConstOffsetMask) || has(spv::ImageOperandsOffsetMask))
-        refuse(i, "textureOffset", "add the offset divided by textureSize to the coordinate");
-      if (has(spv::ImageOperandsLodMask))
+        define(i, call_text(i, "glsl::textureOffset", {i.operands[0], i.operands[1], i.operands.back()}));
+      else if (has(spv::ImageOperandsLodMask))
         define(i, call_text(i, "glsl::textureLod", {i.operands[0], i.operands[1], i.operands[3]}));
       else
         define(i, call_text(i, "glsl::texture",
                             {i.operands[0], i.operands[1]}));  // one mip level: bias and gradients say nothing
+      return true;
+    }
+    case spv::OpImageSampleProjImplicitLod:
+    case spv::OpImageSampleProjExplicitLod: {
+      std::vector<Id> arguments = {i.operands[0], i.operands[1]};
+      if (has(spv::ImageOperandsConstOffsetMask) || has(spv::ImageOperandsOffsetMask))
+        arguments.push_back(i.operands.back());
+      define(i, call_text(i, "glsl::textureProj", arguments));
+      return true;
+    }
+    case spv::OpImageGather: {
+      std::vector<Id> arguments(i.operands.begin(), i.operands.begin() + 3);
+      if (i.operands.size() > 4) arguments.push_back(i.operands[4]);  // one offset, or an array of four
+      define(i, call_text(i, "glsl::textureGather", arguments));
       return true;
     }
     case spv::OpImageFetch: {
@@ -217,10 +231,9 @@ bool FunctionEmitter::texture(const Instruction& i) {
       e.reads.insert(level.reads.begin(), level.reads.end());
       std::string coordinate = where.text;
       if (has(spv::ImageOperandsConstOffsetMask)) {
-        const Expression offset = value(i.operands[lod ? 4 : 3]);
-        coordinate = (where.precedence > 6 ? "(" + where.text + ")" : where.text) + " + " + offset.text;
-        if (module_.type_of(i.operands[1]).count == 3)
-          refuse(i, "texelFetchOffset on sampler2DArray", "add the offset to the coordinate");
+        std::string offset = value(i.operands[lod ? 4 : 3]).text;
+        if (module_.type_of(i.operands[1]).count == 3) offset = "vec<UI, 3>(" + offset + ", UI(0))";
+        coordinate = (where.precedence > 6 ? "(" + where.text + ")" : where.text) + " + " + offset;
       }
       e.text = "glsl::texelFetch(" + image.text + ", " + coordinate + ", " + level.text + ")";
       define(i, e);
@@ -233,13 +246,9 @@ bool FunctionEmitter::texture(const Instruction& i) {
       define(i, Expression{"UI(1)", 1, {}});
       return true;
     case spv::OpImageQueryLod:
-      refuse(i, "textureQueryLod", "there is one mip level: its number is 0");
-    case spv::OpImageGather:
+      refuse(i, "textureQueryLod",
+             "there is one mip level, its number is 0, and levels that would be are not computed");
     case spv::OpImageDrefGather:
-      refuse(i, "textureGather", "fetch the four texels with texelFetch");
-    case spv::OpImageSampleProjImplicitLod:
-    case spv::OpImageSampleProjExplicitLod:
-      refuse(i, "textureProj", "divide the coordinate by its last component yourself and call texture");
     case spv::OpImageSampleDrefImplicitLod:
     case spv::OpImageSampleDrefExplicitLod:
     case spv::OpImageSampleProjDrefImplicitLod:

@@ -164,6 +164,34 @@ Expression FunctionEmitter::extended(const Instruction& i) {
   return call_text(i, std::string("glsl::") + known->function, {i.operands.begin() + 2, i.operands.end()});
 }
 
+// Functions that give two values: a struct in SPIR-V, two names here.
+bool FunctionEmitter::pair(const Instruction& i) {
+  const char* function = i.op == spv::OpIAddCarry                        ? "glsl::uaddCarry"
+                         : i.op == spv::OpISubBorrow                     ? "glsl::usubBorrow"
+                         : i.op == spv::OpUMulExtended                   ? "glsl::umulExtended"
+                         : i.op == spv::OpSMulExtended                   ? "glsl::imulExtended"
+                         : i.op == spv::OpExtInst && i.operands[1] == 52 ? "glsl::frexp"
+                                                                         : nullptr;
+  if (function == nullptr) return false;
+  settle_effects();
+  Expression call = call_text(i, function, {i.operands.begin() + (i.op == spv::OpExtInst ? 2 : 0), i.operands.end()});
+  call.text.pop_back();
+  position(i.file, i.line);
+  auto& names = pairs_[i.result];
+  for (std::string& name : names) name = names_.declare("t" + std::to_string(++temporary_count_));
+  const auto type = [&](std::size_t k) {
+    return types_.name(module_.type(i.type).members[k], at_.is_varying(i.result)) + " ";
+  };
+  out_.line(type(1) + names[1] + ";");
+  if (i.op == spv::OpUMulExtended || i.op == spv::OpSMulExtended) {  // low, high; in GLSL the other way round
+    out_.line(type(0) + names[0] + ";");
+    out_.line(call.text + ", " + names[1] + ", " + names[0] + ");");
+  } else {
+    out_.line("const " + type(0) + names[0] + " = " + call.text + ", " + names[1] + ");");
+  }
+  return true;
+}
+
 // Constructors. A vector taken apart and put together in order is passed whole.
 Expression FunctionEmitter::composite(const Instruction& i) {
   const Type& type = module_.type(i.type);
@@ -186,6 +214,8 @@ Expression FunctionEmitter::composite(const Instruction& i) {
 }
 
 Expression FunctionEmitter::extract(const Instruction& i) {
+  if (const auto found = pairs_.find(i.operands[0]); found != pairs_.end())
+    return Expression{found->second[i.operands[1]], 1, {}};
   Id constant = i.operands[0];
   for (std::size_t k = 1; k < i.operands.size() && module_.is_constant(constant); ++k) {
     const auto& components = module_.constants.at(constant).components;
@@ -275,7 +305,7 @@ void FunctionEmitter::call(const Instruction& i) {
 }
 
 void FunctionEmitter::instruction(const Instruction& i) {
-  if (arithmetic(i) || texture(i)) return;
+  if (arithmetic(i) || texture(i) || pair(i)) return;
   switch (i.op) {
     case spv::OpVariable:
     case spv::OpAccessChain:
@@ -312,6 +342,8 @@ void FunctionEmitter::instruction(const Instruction& i) {
         e.precedence = 6;
         return define(i, e);
       }
+      if (i.operands[1] == 76 || i.operands[1] == 77)  // interpolateAtCentroid, interpolateAtSample: one sample
+        return define(i, load(place(i.operands[2])));
       return define(i, extended(i));
     case spv::OpCompositeConstruct:
       return define(i, composite(i));
@@ -405,6 +437,11 @@ void FunctionEmitter::instruction(const Instruction& i) {
     }
     case spv::OpMemoryBarrier:
       return;  // lanes run in step
+    case spv::OpControlBarrier:
+      before_write(kBuffers);
+      position(i.file, i.line);
+      out_.line("this->barrier();");
+      return;
     default:
       if (i.op >= spv::OpAtomicLoad && i.op <= spv::OpAtomicXor) return atomic(i);
       refuse(i, "SPIR-V instruction " + op_name(i.op), "write it in other terms");

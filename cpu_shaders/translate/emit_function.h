@@ -2,6 +2,8 @@
 // flow, emit_loop.cpp loops and switches.
 #pragma once
 
+#include <array>
+
 #include "cpu_shaders/translate/emit_types.h"
 #include "cpu_shaders/translate/instances.h"
 #include "cpu_shaders/translate/interface.h"
@@ -64,6 +66,7 @@ class FunctionEmitter {
   Expression binary(const Instruction& i, const char* op, int precedence);
   Expression call_text(const Instruction& i, const std::string& function, const std::vector<Id>& arguments);
   Expression extended(const Instruction& i);
+  bool pair(const Instruction& i);
   Expression composite(const Instruction& i);
   Expression extract(const Instruction& i);
   Expression select(const Instruction& i);
@@ -93,12 +96,16 @@ class FunctionEmitter {
   Place place(Id pointer);
   Expression load(const Place& p);
   bool holds_structure(Id type) const;
+  bool is_block_array(Id type) const;
+  std::string builtin_text(const Global& g);
   std::string step_text(const std::string& base, const Step& s);
   void store(const Instruction& i);
   void store_to(const Instruction& i, const Place& p, const std::string& value);
   std::string nested_store(const std::string& base, const Place& p, std::size_t first, const std::string& mask,
                            bool masked, const std::string& value, int depth);
   struct Offset {
+    explicit Offset(const Layout& l) : layout(l) {}
+    Layout layout;
     std::uint32_t constant = 0;
     std::string dynamic;
     bool varying = false;
@@ -162,6 +169,7 @@ class FunctionEmitter {
   Regions regions_;
   const bool runs_in_double_;
   std::map<Id, Expression> values_;
+  std::map<Id, std::array<std::string, 2>> pairs_;  // values of functions that give two
   std::vector<Pending> pending_;
   std::map<Id, std::string> variables_;
   std::map<Id, Id> argument_values_;  // argument temporaries

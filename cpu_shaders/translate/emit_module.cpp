@@ -4,49 +4,11 @@
 #include <regex>
 
 #include "cpu_shaders/translate/emit_function.h"
+#include "cpu_shaders/translate/emit_reflection.h"
 #include "cpu_shaders/translate/served.h"
 
 namespace twinshade::spirv {
 namespace {
-
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += c == '\n' ? ' ' : c;
-  }
-  return result + "\"";
-}
-
-const char* boolean(bool b) { return b ? "true" : "false"; }
-
-std::string scalar_name(Scalar s) {
-  switch (s) {
-    case Scalar::i32:
-      return "Scalar::i32";
-    case Scalar::u32:
-      return "Scalar::u32";
-    case Scalar::boolean:
-      return "Scalar::boolean";
-    default:
-      return "Scalar::f32";
-  }
-}
-
-std::string kind_name(ResourceKind k) {
-  switch (k) {
-    case ResourceKind::uniform_block:
-      return "ResourceKind::uniform_block";
-    case ResourceKind::storage_buffer:
-      return "ResourceKind::storage_buffer";
-    case ResourceKind::sampler_2d_array:
-      return "ResourceKind::sampler_2d_array";
-    case ResourceKind::sampler_cube:
-      return "ResourceKind::sampler_cube";
-    default:
-      return "ResourceKind::sampler_2d";
-  }
-}
 
 class ModuleEmitter {
  public:
@@ -74,7 +36,8 @@ class ModuleEmitter {
     interface_.reflection.no_float64_reason = shared_.no_float64_reason;
     translation_.reflection = interface_.reflection;
     const std::string types = aside([&] { types_.write_declarations(shared_.out); });
-    translation_.cpp = head() + types + tables + members + functions + tail();
+    translation_.cpp = head() + types + tables + members + functions +
+                       reflection_text(interface_.reflection, source_, translation_.identifier);
   }
 
  private:
@@ -207,7 +170,8 @@ class ModuleEmitter {
           out.line(types_.name(g.type, false) + " " + g.name + ";");
           break;
         case Role::buffer:
-          out.line("BufferView " + g.name + ";");
+        case Role::shared:
+          out.line(view_type(g.role == Role::buffer ? g.type : 0) + " " + g.name + ";");
           break;
         case Role::builtin:
           break;
@@ -231,8 +195,41 @@ class ModuleEmitter {
     out.close("}");
   }
 
+  // Blocks are views; an array of blocks is an array of views.
+  std::string view_type(Id type) const {
+    if (type == 0 || module_.type(type).kind != Kind::array) return "BufferView";
+    return "arr<" + view_type(module_.type(type).element) + ", " + std::to_string(module_.type(type).count) + ">";
+  }
+
+  // Structs, which the runtime knows nothing about, are put together member by member.
+  void input_members(Id id, const std::string& target, std::uint32_t& component) {
+    const Type& t = module_.type(id);
+    if (t.kind == Kind::structure) {
+      for (std::uint32_t k = 0; k < t.members.size(); ++k)
+        input_members(t.members[k], target + "." + types_.member(id, k), component);
+      return;
+    }
+    if (t.kind == Kind::array) {
+      for (std::uint32_t k = 0; k < t.count; ++k)
+        input_members(t.element, target + "[" + std::to_string(k) + "]", component);
+      return;
+    }
+    shared_.out.line(target + " = this->template input<" + types_.name(id, true) + ">(" + std::to_string(component) +
+                     ");");
+    component += module_.component_count(id);
+  }
+
   void write_input(const Global& g) {
     const std::string type = types_.name(g.type, true);
+    if (module_.type(module_.innermost(g.type)).kind == Kind::structure) {
+      shared_.out.open("TWINSHADE_INLINE " + type + " " + g.name + "() const {");
+      shared_.out.line(type + " value;");
+      std::uint32_t component = g.first_component;
+      input_members(g.type, "value", component);
+      shared_.out.line("return value;");
+      shared_.out.close("}");
+      return;
+    }
     shared_.out.line(type + " " + g.name + "() const { return this->template input<" + type + ">(" +
                      std::to_string(g.first_component) + "); }");
     const Type& t = module_.type(g.type);
@@ -257,18 +254,20 @@ class ModuleEmitter {
       if (found == interface_.globals.end() || !found->second.mentioned) continue;
       const Global& g = found->second;
       if (g.role == Role::sampler) {
-        const Type& t = module_.type(g.type);
-        const Id element = t.kind == Kind::array ? t.element : g.type;
-        const std::string type = types_.name(element, false);
+        const std::string type = types_.name(module_.innermost(g.type), false);
         const std::string function = type == "samplerCube"      ? "texture_cube"
                                      : type == "sampler2DArray" ? "texture_2d_array"
                                                                 : "texture_2d";
-        if (t.kind != Kind::array) out.line(g.name + " = this->" + function + "(" + std::to_string(g.slot) + ");");
-        for (std::uint32_t k = 0; t.kind == Kind::array && k < t.count; ++k)
-          out.line(g.name + "[" + std::to_string(k) + "] = this->" + function + "(" + std::to_string(g.slot + k) +
-                   ");");
+        std::uint32_t slot = g.slot;
+        for (const std::string& suffix : module_.element_suffixes(g.type))
+          out.line(g.name + suffix + " = this->" + function + "(" + std::to_string(slot++) + ");");
       } else if (g.role == Role::buffer) {
-        out.line(g.name + " = this->buffer(" + std::to_string(g.slot) + ");");
+        std::uint32_t slot = g.slot;
+        for (const std::string& suffix : module_.element_suffixes(g.type))
+          out.line(g.name + suffix + " = this->buffer(" + std::to_string(slot++) + ");");
+      } else if (g.role == Role::shared) {
+        out.line(g.name + " = this->shared(" + std::to_string(g.offset) + ", " +
+                 std::to_string(Layout(module_, false).size(g.type)) + ");");
       } else if (g.role == Role::uniform) {
         std::string memory = "memory";
         if (g.in_block)
@@ -370,91 +369,6 @@ class ModuleEmitter {
     for (const char* name : {"kept", "live", "frag_coord", "front_facing", "primitive_id", "frag_depth", "output"})
       text += std::string("  using Base::") + name + ";\n";
     return text;
-  }
-
-  std::string tail() const {
-    const std::string& id = translation_.identifier;
-    const Reflection& r = interface_.reflection;
-    std::string t = "};\n\n";
-    const auto table = [&](const std::string& type, const std::string& name, const std::vector<std::string>& rows) {
-      if (rows.empty()) return;
-      t += "constexpr " + type + " " + name + "[] = {\n";
-      for (const std::string& row : rows) t += "    {" + row + "},\n";
-      t += "};\n";
-    };
-    const auto variables = [](const std::vector<ReflectedVariable>& all) {
-      std::vector<std::string> rows;
-      for (const auto& v : all)
-        rows.push_back(quoted(v.name) + ", " + scalar_name(v.scalar) + ", " + std::to_string(v.columns) + ", " +
-                       std::to_string(v.rows) + ", " + std::to_string(v.array_length) + ", " + boolean(v.flat) + ", " +
-                       boolean(v.noperspective) + ", " + std::to_string(v.location) + ", " +
-                       std::to_string(v.first_component));
-      return rows;
-    };
-    table("ShaderVariable", "kInputs", variables(r.inputs));
-    table("ShaderVariable", "kOutputs", variables(r.outputs));
-    std::vector<std::string> uniforms, resources;
-    for (const auto& u : r.uniforms)
-      uniforms.push_back(quoted(u.name) + ", " + scalar_name(u.scalar) + ", " + std::to_string(u.columns) + ", " +
-                         std::to_string(u.rows) + ", " + std::to_string(u.array_length) + ", " +
-                         std::to_string(u.offset) + ", " + std::to_string(u.array_stride) + ", " +
-                         std::to_string(u.matrix_stride));
-    for (const auto& x : r.resources)
-      resources.push_back(quoted(x.name) + ", " + kind_name(x.kind) + ", " + std::to_string(x.slot) + ", " +
-                          std::to_string(x.minimum_size) + ", " + boolean(x.read_only) + ", " +
-                          boolean(x.layers_together) + ", " + std::to_string(x.beside));
-    table("ShaderUniform", "kUniforms", uniforms);
-    table("ShaderResource", "kResources", resources);
-
-    const std::string scalar = r.uses_derivatives ? "Quad" : "Scalar";
-    t += "}  // namespace\n}  // namespace TWINSHADE_ISA_NAMESPACE\n\n";
-    // A shared object has one module; linked objects leave their entries to whoever joins them.
-    t += "#if defined(TWINSHADE_SHARED_OBJECT)\n#define TWINSHADE_ENTRIES entries\n#define TWINSHADE_ENTRY_COUNT "
-         "entry_count\n#else\n";
-    t += "#define TWINSHADE_ENTRIES TWINSHADE_JOIN(twinshade_entries_" + id + "_, TWINSHADE_ISA)\n";
-    t += "#define TWINSHADE_ENTRY_COUNT TWINSHADE_JOIN(twinshade_entry_count_" + id + "_, TWINSHADE_ISA)\n#endif\n";
-    t += "extern const ShaderEntry TWINSHADE_ENTRIES[];\nextern const std::uint32_t TWINSHADE_ENTRY_COUNT;\n";
-    t += "const ShaderEntry TWINSHADE_ENTRIES[] = {\n";
-    const auto entry = [&](int bit, const std::string& number, const std::string& policy) {
-      t += "#if TWINSHADE_NUMBERS & " + std::to_string(bit) + "\n    {Isa(TWINSHADE_ISA_NUMBER), Number::" + number +
-           ", shade_all<Shader, " + policy + ">},\n#endif\n";
-    };
-    entry(1, "lanes4", "Lanes<4>");
-    entry(2, "lanes8", "Lanes<8>");
-    entry(4, "lanes16", "Lanes<16>");
-    entry(8, "scalar", scalar + "32");
-    if (r.no_float64_reason.empty()) entry(16, "float64", scalar + "64");
-    t += "    {Isa(TWINSHADE_ISA_NUMBER), Number::scalar, nullptr}};  // the end, not counted\n";
-    t += "const std::uint32_t TWINSHADE_ENTRY_COUNT = sizeof TWINSHADE_ENTRIES / sizeof *TWINSHADE_ENTRIES - 1;\n\n";
-
-    const auto array = [](bool empty, const char* name) {
-      return empty ? std::string("nullptr, 0") : std::string(name) + ", sizeof " + name + " / sizeof *" + name;
-    };
-    const auto module = [&](const std::string& entries) {
-      std::string m =
-          "    kAbiVersion,\n    " + quoted(source_.name) + ",\n    " + quoted(source_hash(source_)) + ",\n";
-      m += "    " + array(r.inputs.empty(), "kInputs") + ", " + std::to_string(r.input_components) + ",\n";
-      m += "    " + array(r.outputs.empty(), "kOutputs") + ", " + std::to_string(r.output_components) + ",\n";
-      m += "    " + array(r.uniforms.empty(), "kUniforms") + ", " + std::to_string(r.uniform_bytes) + ",\n";
-      m += "    " + array(r.resources.empty(), "kResources") + ", " + std::to_string(r.texture_count) + ", " +
-           std::to_string(r.buffer_count) + ",\n";
-      m += "    /*discards*/ " + std::string(boolean(r.discards)) + ", /*writes_depth*/ " + boolean(r.writes_depth) +
-           ", /*has_side_effects*/ " + boolean(r.has_side_effects) + ", /*uses_derivatives*/ " +
-           boolean(r.uses_derivatives) + ",\n    /*uses_frag_coord*/ " + boolean(r.uses_frag_coord) +
-           ", /*uses_front_facing*/ " + boolean(r.uses_front_facing) + ", /*uses_primitive_id*/ " +
-           boolean(r.uses_primitive_id) + ",\n";
-      m += "    " + (r.no_float64_reason.empty() ? std::string("nullptr") : quoted(r.no_float64_reason)) + ",\n    " +
-           entries + "};\n";
-      return m;
-    };
-    t += "#if defined(TWINSHADE_SHARED_OBJECT)\n";
-    t += "extern \"C\" __attribute__((visibility(\"default\"))) const ShaderModule twinshade_shader_module;\n";
-    t += "const ShaderModule twinshade_shader_module = {\n" + module("TWINSHADE_ENTRIES, TWINSHADE_ENTRY_COUNT");
-    t += "#elif TWINSHADE_ISA_NUMBER == 0\n";
-    t += "extern const ShaderModule twinshade_module_" + id + ";\n";
-    t += "const ShaderModule twinshade_module_" + id + " = {\n" + module("nullptr, 0");
-    t += "#endif\n\n}  // namespace twinshade\n";
-    return t;
   }
 
   const Program& program_;

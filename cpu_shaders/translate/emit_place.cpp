@@ -50,6 +50,45 @@ std::string FunctionEmitter::step_text(const std::string& base, const Step& s) {
   return base + "[" + std::to_string(s.index) + "]";
 }
 
+bool FunctionEmitter::is_block_array(Id type) const {
+  if (module_.type(type).kind != Kind::array) return false;
+  const Decorations& d = module_.decorations_of(module_.innermost(type));
+  return d.has(spv::DecorationBlock) || d.has(spv::DecorationBufferBlock);
+}
+
+// Built-in inputs. There is one sample, at the pixel centre, one layer and one viewport.
+std::string FunctionEmitter::builtin_text(const Global& g) {
+  const std::uint32_t* size = module_.local_size;
+  const std::string local_size =
+      "<" + std::to_string(size[0]) + ", " + std::to_string(size[1]) + ", " + std::to_string(size[2]) + ">()";
+  switch (g.builtin) {
+    case spv::BuiltInFragCoord:
+      return "frag_coord()";
+    case spv::BuiltInFrontFacing:
+      return "front_facing()";
+    case spv::BuiltInPrimitiveId:
+      return "primitive_id()";
+    case spv::BuiltInHelperInvocation:
+      return "!live()";
+    case spv::BuiltInSamplePosition:
+      return types_.name(g.type, true) + "(F(0.5f))";
+    case spv::BuiltInSampleMask:
+      return types_.name(g.type, true) + "{{I(1)}}";
+    case spv::BuiltInNumWorkgroups:
+      return "this->num_work_groups()";
+    case spv::BuiltInWorkgroupId:
+      return "this->work_group_id()";
+    case spv::BuiltInLocalInvocationIndex:
+      return "this->local_invocation_index()";
+    case spv::BuiltInLocalInvocationId:
+      return "this->template local_invocation_id" + local_size;
+    case spv::BuiltInGlobalInvocationId:
+      return "this->template global_invocation_id" + local_size;
+    default:  // gl_SampleID, gl_Layer, gl_ViewportIndex
+      return "I(0)";
+  }
+}
+
 FunctionEmitter::Place FunctionEmitter::place(Id pointer) {
   std::vector<const Instruction*> chains;
   Id at = pointer;
@@ -76,9 +115,12 @@ FunctionEmitter::Place FunctionEmitter::place(Id pointer) {
         if (t.count != 0 && s.index >= t.count) s.index = t.count - 1;
         s.text = std::to_string(s.index);
       } else {
-        if (at_.is_varying(index) && module_.type(t.element).kind == Kind::sampler)
+        if (at_.is_varying(index) && module_.scalar_kind(t.element) == Kind::sampler)
           refuse(**chain, "indexing samplers by a value that differs between invocations",
                  "use a sampler2DArray, or a switch");
+        if (at_.is_varying(index) && is_block_array(p.type))
+          refuse(**chain, "indexing blocks by a value that differs between invocations",
+                 "use one block with an array in it, or a switch");
         s.kind = at_.is_varying(index) ? Step::Kind::varying_index : Step::Kind::uniform_index;
         const Expression e = value(index);
         s.text = e.text;
@@ -104,7 +146,7 @@ FunctionEmitter::Place FunctionEmitter::place(Id pointer) {
   switch (g.role) {
     case Role::input:
       // An element of an input array is loaded by itself.
-      if (!p.steps.empty() && module_.type(g.type).kind == Kind::array &&
+      if (!p.steps.empty() && module_.type(g.type).kind == Kind::array && !holds_structure(g.type) &&
           p.steps[0].kind != Step::Kind::varying_index) {
         const bool constant = p.steps[0].kind == Step::Kind::constant;
         p.base.text =
@@ -115,10 +157,7 @@ FunctionEmitter::Place FunctionEmitter::place(Id pointer) {
       }
       break;
     case Role::builtin:
-      p.base.text = g.builtin == spv::BuiltInFragCoord     ? "frag_coord()"
-                    : g.builtin == spv::BuiltInFrontFacing ? "front_facing()"
-                    : g.builtin == spv::BuiltInPrimitiveId ? "primitive_id()"
-                                                           : "!live()";
+      p.base.text = builtin_text(g);
       if (g.builtin == spv::BuiltInHelperInvocation) p.base.precedence = 3;
       break;
     case Role::output:
@@ -128,8 +167,14 @@ FunctionEmitter::Place FunctionEmitter::place(Id pointer) {
       p.base.reads.insert(at);
       break;
     case Role::buffer:
+    case Role::shared:
       p.buffer = &g;
-      [[fallthrough]];
+      p.base.text = g.name;
+      while (!p.steps.empty() && is_block_array(p.steps[0].container)) {  // one view each
+        p.base.text += "[" + p.steps[0].text + "]";
+        p.steps.erase(p.steps.begin());
+      }
+      break;
     case Role::uniform:
     case Role::sampler:
       p.base.text = g.name;
@@ -258,8 +303,8 @@ std::string FunctionEmitter::Offset::text(std::uint32_t more) const {
 }
 
 FunctionEmitter::Offset FunctionEmitter::offset_of(const Place& p) {
-  const Layout layout(module_, true);
-  Offset at;
+  const Layout layout(module_, p.buffer->role != Role::shared);
+  Offset at(layout);
   at.type = p.type;
   for (const Step& s : p.steps) {
     const Type& container = module_.type(s.container);
@@ -297,7 +342,7 @@ std::string FunctionEmitter::load_memory(const std::string& buffer, const Offset
                                          const MatrixLayout& matrix, bool varying) {
   const Type& t = module_.type(id);
   const std::string type = types_.name(id, varying);
-  const Layout layout(module_, true);
+  const Layout& layout = at.layout;
   std::string parts;
   const auto add = [&](const std::string& part) { parts += (parts.empty() ? "" : ", ") + part; };
   switch (t.kind) {
@@ -330,7 +375,7 @@ std::string FunctionEmitter::load_memory(const std::string& buffer, const Offset
 void FunctionEmitter::store_memory(const std::string& buffer, const Offset& at, Id id, std::uint32_t more,
                                    const MatrixLayout& matrix, const std::string& stored) {
   const Type& t = module_.type(id);
-  const Layout layout(module_, true);
+  const Layout& layout = at.layout;
   switch (t.kind) {
     case Kind::matrix:
       for (std::uint32_t c = 0; c < t.count; ++c)

@@ -6,8 +6,8 @@
 namespace twinshade::spirv {
 namespace {
 
-constexpr const char* kSplit = "take the number apart by division";
-constexpr const char* kInterpolate = "use the input itself: there is one sample, at the pixel centre";
+constexpr const char* kInterpolate = "inputs are known at pixel centres only";
+constexpr const char* kPair = "";  // emitted by FunctionEmitter::pair
 
 constexpr ExtendedInstruction kInstructions[] = {
     {1, "round", "round", "", false},
@@ -57,9 +57,8 @@ constexpr ExtendedInstruction kInstructions[] = {
     {48, "step", "step", "", false},
     {49, "smoothstep", "smoothstep", "", false},
     {50, "fma", "fma", "", false},
-    {51, "frexp", nullptr, kSplit, false},
-    {52, "frexp", nullptr, kSplit, false},
-    {53, "ldexp", nullptr, "multiply by exp2 of the exponent", false},
+    {52, "frexp", nullptr, kPair, false},
+    {53, "ldexp", "ldexp", "", false},
     {54, "packSnorm4x8", "packSnorm4x8", "", true},
     {55, "packUnorm4x8", "packUnorm4x8", "", true},
     {56, "packSnorm2x16", "packSnorm2x16", "", true},
@@ -82,8 +81,6 @@ constexpr ExtendedInstruction kInstructions[] = {
     {73, "findLSB", "findLSB", "", false},
     {74, "findMSB", "findMSB", "", false},
     {75, "findMSB", "findMSB", "", false},
-    {76, "interpolateAtCentroid", nullptr, kInterpolate, false},
-    {77, "interpolateAtSample", nullptr, kInterpolate, false},
     {78, "interpolateAtOffset", nullptr, kInterpolate, false},
     {79, "min", "min", "", false},
     {80, "max", "max", "", false},

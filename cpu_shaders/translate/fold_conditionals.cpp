@@ -16,6 +16,9 @@ bool is_pure(const Instruction& i) {
     case spv::OpVariable:
     case spv::OpImageSampleImplicitLod:
     case spv::OpImageSampleExplicitLod:
+    case spv::OpImageSampleProjImplicitLod:
+    case spv::OpImageSampleProjExplicitLod:
+    case spv::OpImageGather:
     case spv::OpImageFetch:
     case spv::OpDPdx:
     case spv::OpDPdy:

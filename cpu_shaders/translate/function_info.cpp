@@ -14,6 +14,8 @@ bool is_local(const Module& module, Id variable) {
   return found != module.variables.end() && found->second.storage == spv::StorageClassFunction;
 }
 
+bool is_memory(spv::StorageClass c) { return c == spv::StorageClassUniform || c == spv::StorageClassWorkgroup; }
+
 bool is_atomic(spv::Op op) { return op >= spv::OpAtomicLoad && op <= spv::OpAtomicXor; }
 
 class Gatherer {
@@ -62,7 +64,7 @@ class Gatherer {
     if (v == module_.variables.end()) return;
     if (v->second.storage == spv::StorageClassPrivate || v->second.storage == spv::StorageClassOutput)
       info_.globals_read.insert(root);
-    if (v->second.storage == spv::StorageClassUniform) info_.reads_buffers = true;
+    if (is_memory(v->second.storage)) info_.reads_buffers = true;
   }
 
   void write(Id pointer) {
@@ -74,7 +76,7 @@ class Gatherer {
     if (v == module_.variables.end()) return;
     if (v->second.storage == spv::StorageClassPrivate || v->second.storage == spv::StorageClassOutput)
       info_.globals_written.insert(root);
-    if (v->second.storage == spv::StorageClassUniform) info_.writes_buffers = true;
+    if (is_memory(v->second.storage)) info_.writes_buffers = true;
   }
 
   void instruction(const Instruction& i) {
@@ -109,6 +111,9 @@ class Gatherer {
       case spv::OpFwidthCoarse:
         info_.uses_derivatives = true;
         break;
+      case spv::OpControlBarrier:
+        info_.has_barrier = info_.reads_buffers = info_.writes_buffers = true;
+        break;
       case spv::OpFunctionCall:
         call(i);
         break;
@@ -129,6 +134,7 @@ class Gatherer {
     info_.writes_buffers |= callee.writes_buffers;
     info_.reads_buffers |= callee.reads_buffers;
     info_.uses_derivatives |= callee.uses_derivatives;
+    info_.has_barrier |= callee.has_barrier;
     for (std::size_t k = 0; k + 1 < i.operands.size(); ++k) {
       const Id argument = i.operands[k + 1];
       if (module_.type_of(argument).kind != Kind::pointer) continue;

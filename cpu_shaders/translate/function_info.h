@@ -27,7 +27,7 @@ struct FunctionInfo {
 
   std::set<Id> globals_read, globals_written;  // private and output variables, callees' included
   bool mask_matters = false;                   // it has control flow or effects, or calls what has
-  bool discards = false, writes_buffers = false, reads_buffers = false, uses_derivatives = false;
+  bool discards = false, writes_buffers = false, reads_buffers = false, uses_derivatives = false, has_barrier = false;
 
   // Local variables that are stored once, whole, with a constant, and only read: constant tables.
   std::map<Id, Id> constant_tables;

@@ -15,6 +15,9 @@ struct Frame {
   std::size_t case_index;
 };
 
+// interpolateAtCentroid, interpolateAtSample
+bool is_interpolation(std::uint32_t extended) { return extended == 76 || extended == 77; }
+
 bool is_chain(const Instruction& i) { return i.op == spv::OpAccessChain || i.op == spv::OpInBoundsAccessChain; }
 
 class Analysis {
@@ -230,6 +233,10 @@ class Analysis {
         case spv::StorageClassUniformConstant:
         case spv::StorageClassUniform:
           return false;
+        case spv::StorageClassInput: {  // what a work group shares
+          const std::uint32_t built_in = module_.decorations_of(root).get(spv::DecorationBuiltIn, spv::BuiltInMax);
+          return built_in != spv::BuiltInWorkgroupId && built_in != spv::BuiltInNumWorkgroups;
+        }
         default:
           return true;
       }
@@ -240,7 +247,7 @@ class Analysis {
       const auto v = module_.variables.find(root);
       const spv::StorageClass storage = v == module_.variables.end() ? spv::StorageClassFunction : v->second.storage;
       const bool varies = value_varies || varying_path(pointer);
-      if (storage == spv::StorageClassUniform) {
+      if (storage == spv::StorageClassUniform || storage == spv::StorageClassWorkgroup) {
         at_.needs_mask = true;
       } else if (storage == spv::StorageClassFunction) {
         const bool partial = live_elsewhere(root);
@@ -291,6 +298,9 @@ class Analysis {
           break;
         case spv::OpImageSampleImplicitLod:
         case spv::OpImageSampleExplicitLod:
+        case spv::OpImageSampleProjImplicitLod:
+        case spv::OpImageSampleProjExplicitLod:
+        case spv::OpImageGather:
         case spv::OpImageFetch:
           varies = true;
           break;
@@ -298,6 +308,10 @@ class Analysis {
           if (i.operands[1] == 35) {  // modf
             varies = varying(i.operands[2]);
             store(i, i.operands[3], varies);
+            break;
+          }
+          if (is_interpolation(i.operands[1])) {
+            varies = load_varies(i.operands[2]);
             break;
           }
           [[fallthrough]];

@@ -50,6 +50,9 @@ class Describer {
         case spv::StorageClassUniform:
           block(v);
           break;
+        case spv::StorageClassWorkgroup:
+          shared(v);
+          break;
         default:
           refuse(module_.name(id), "storage class of " + module_.name(id), "use in, out, uniform or buffer");
       }
@@ -60,7 +63,9 @@ class Describer {
       reflection_.discards |= info.discards;
       reflection_.has_side_effects |= info.writes_buffers;
       reflection_.uses_derivatives |= info.uses_derivatives;
+      reflection_.uses_barrier |= info.has_barrier;
     }
+    std::copy_n(module_.local_size, 3, reflection_.local_size);
     if (module_.other_frag_coord)
       refuse("gl_FragCoord", "layout(origin_upper_left) or layout(pixel_center_integer) of gl_FragCoord",
              "compute it from gl_FragCoord");
@@ -130,30 +135,50 @@ class Describer {
           reflection_.uses_primitive_id = true;
           return;
         case spv::BuiltInHelperInvocation:
+        case spv::BuiltInSampleId:
+        case spv::BuiltInSamplePosition:
+        case spv::BuiltInSampleMask:
+        case spv::BuiltInLayer:
+        case spv::BuiltInViewportIndex:
+        case spv::BuiltInNumWorkgroups:
+        case spv::BuiltInWorkgroupId:
+        case spv::BuiltInLocalInvocationId:
+        case spv::BuiltInGlobalInvocationId:
+        case spv::BuiltInLocalInvocationIndex:
           return;
         default:
-          refuse(name, "the built-in " + name,
-                 "use gl_FragCoord, gl_FrontFacing, gl_PrimitiveID or gl_HelperInvocation");
+          refuse(name, "the built-in " + name, "only triangles are drawn, with neither clip distances nor points");
       }
     }
-    if (module_.type(v.type).kind == Kind::structure)
-      refuse(module_.name(v.type), "an input block or struct (" + (name.empty() ? module_.name(v.type) : name) + ")",
-             "declare its members as separate inputs");
-    if (d.get(spv::DecorationComponent) != 0)
-      refuse(name, "layout(component) of input " + name, "give each input a location of its own");
-    if (d.has(spv::DecorationCentroid) || d.has(spv::DecorationSample))
-      refuse(name, "centroid or sample interpolation of " + name,
-             "remove the qualifier: there is one sample, at the pixel centre");
+    const std::uint32_t first = reflection_.input_components;
+    input_leaves(v.type, name, d, static_cast<std::int32_t>(d.get(spv::DecorationLocation, ~0u)));
+    add(v, Role::input, name.empty() ? module_.name(module_.innermost(v.type)) : name).first_component = first;
+  }
+
+  // One input for each leaf of blocks, structs and arrays of them, named as the shader names it: "surface.normal",
+  // "lights[1].colour", and "normal" in a block without an instance name.
+  void input_leaves(Id type, const std::string& path, const Decorations& d, std::int32_t location) {
+    const Type& t = module_.type(type);
+    if (t.kind == Kind::structure) {
+      for (std::uint32_t k = 0; k < t.members.size(); ++k) {
+        Decorations member = module_.member(type, k);
+        member.values.insert(d.values.begin(), d.values.end());
+        input_leaves(t.members[k], (path.empty() ? "" : path + ".") + module_.member_names.at({type, k}), member, -1);
+      }
+      return;
+    }
     ReflectedVariable r;
-    r.name = name;
-    if (!describe(v.type, r)) refuse(name, "the type of input " + name, "use vectors, matrices or arrays of them");
+    if (!describe(type, r)) {  // arrays of structs and of arrays
+      for (std::uint32_t k = 0; k < t.count; ++k) input_leaves(t.element, path + "[" + std::to_string(k) + "]", d, -1);
+      return;
+    }
+    r.name = path;
     r.flat = d.has(spv::DecorationFlat);
     r.noperspective = d.has(spv::DecorationNoPerspective);
-    r.location = static_cast<std::int32_t>(d.get(spv::DecorationLocation, ~0u));
+    r.location = location;
     r.first_component = reflection_.input_components;
-    reflection_.input_components += module_.component_count(v.type);
+    reflection_.input_components += module_.component_count(type);
     reflection_.inputs.push_back(r);
-    add(v, Role::input, name).first_component = r.first_component;
   }
 
   void output(const Variable& v) {
@@ -191,8 +216,7 @@ class Describer {
 
   void uniform_constant(const Variable& v) {
     const std::string name = module_.name(v.id);
-    const Type& t = module_.type(v.type);
-    const Type& element = t.kind == Kind::array ? module_.type(t.element) : t;
+    const Type& element = module_.type(module_.innermost(v.type));
     if (element.kind == Kind::sampler) {
       const Type& image = module_.type(element.element);
       ResourceKind kind;
@@ -200,10 +224,9 @@ class Describer {
         refuse(name, "the sampler type of " + name, "use sampler2D, sampler2DArray or samplerCube");
       Global& g = add(v, Role::sampler, name);
       g.slot = reflection_.texture_count;
-      const std::uint32_t count = t.kind == Kind::array ? t.count : 1;
-      for (std::uint32_t k = 0; k < count; ++k) {
+      for (const std::string& suffix : module_.element_suffixes(v.type)) {
         ReflectedResource r;
-        r.name = t.kind == Kind::array ? name + "[" + std::to_string(k) + "]" : name;
+        r.name = name + suffix;
         r.kind = kind;
         r.slot = reflection_.texture_count++;
         r.layers_together = layers_together_.count(v.id) != 0;
@@ -212,15 +235,29 @@ class Describer {
       return;
     }
     if (holds_opaque(v.type))
-      refuse(name, "an image, or a sampler in a struct or nested array (" + name + ")",
+      refuse(name, "an image, or a sampler in a struct (" + name + ")",
              "use sampler2D, sampler2DArray or samplerCube uniforms");
-    if (v.initializer != 0)
-      refuse(name, "the initialiser of uniform " + name, "set its value in the bundle, or make it a const");
     Global& g = add(v, Role::uniform, name);
     const Layout layout(module_, false);
     g.offset = (reflection_.uniform_bytes + 15) / 16 * 16;
     reflection_.uniform_bytes = g.offset + layout.size(v.type);
-    leaves(layout, v.type, name, g.offset);
+    leaves(layout, v.type, name, g.offset, v.initializer);
+  }
+
+  // Component k of a constant composite; 0 where that is all zero (OpConstantNull).
+  Id part_of(Id constant, std::uint32_t k) const {
+    if (constant == 0) return 0;
+    const auto& components = module_.constants.at(constant).components;
+    return components.empty() ? 0 : components[k];
+  }
+
+  void words_of(Id constant, Id type, std::vector<std::uint32_t>& words) const {
+    const Type& t = module_.type(type);
+    if (t.kind == Kind::array || t.kind == Kind::matrix || t.kind == Kind::vector) {
+      for (std::uint32_t k = 0; k < t.count; ++k) words_of(part_of(constant, k), t.element, words);
+      return;
+    }
+    words.push_back(constant == 0 ? 0 : module_.constants.at(constant).bits);
   }
 
   void place_beside(Id first, Id second) {
@@ -238,54 +275,64 @@ class Describer {
   }
 
   // Uniforms are set by the path of each leaf: "lights[2].colour".
-  void leaves(const Layout& layout, Id type, const std::string& path, std::uint32_t offset) {
+  void leaves(const Layout& layout, Id type, const std::string& path, std::uint32_t offset, Id initial) {
     const Type& t = module_.type(type);
     if (t.kind == Kind::structure) {
       for (std::uint32_t k = 0; k < t.members.size(); ++k)
         leaves(layout, t.members[k], path + "." + module_.member_names.at({type, k}),
-               offset + layout.member_offset(type, k));
+               offset + layout.member_offset(type, k), part_of(initial, k));
       return;
     }
     ReflectedUniform u;
     if (!describe(type, u)) {  // arrays of structs and of arrays
       for (std::uint32_t k = 0; k < t.count; ++k)
-        leaves(layout, t.element, path + "[" + std::to_string(k) + "]", offset + k * layout.array_stride(type));
+        leaves(layout, t.element, path + "[" + std::to_string(k) + "]", offset + k * layout.array_stride(type),
+               part_of(initial, k));
       return;
     }
     u.name = path;
     u.offset = offset;
     u.array_stride = u.array_length != 0 ? layout.array_stride(type) : 0;
     u.matrix_stride = u.columns > 1 ? 16 : 0;
+    if (initial != 0) words_of(initial, type, u.initial);
     reflection_.uniforms.push_back(u);
   }
 
   void block(const Variable& v) {
-    const std::string name = module_.name(v.type);
-    const bool storage = module_.decorations_of(v.type).has(spv::DecorationBufferBlock);
-    if (module_.type(v.type).kind != Kind::structure)
-      refuse(module_.name(v.id), "an array of blocks (" + module_.name(v.id) + ")",
-             "declare one block with an array in it");
+    const Id block_type = module_.innermost(v.type);
+    const std::string name = module_.name(block_type);
+    const bool storage = module_.decorations_of(block_type).has(spv::DecorationBufferBlock);
     const Layout layout(module_, true);
+    const std::uint32_t slot = reflection_.buffer_count;
     ReflectedResource r;
-    r.name = name;
-    r.kind = storage ? ResourceKind::storage_buffer : ResourceKind::uniform_block;
-    r.slot = reflection_.buffer_count++;
-    r.minimum_size = layout.size(v.type);
-    r.read_only = !storage || read_only(v);
-    reflection_.resources.push_back(r);
-    const bool loaded = !storage && r.minimum_size <= kLargestLoadedBlock;
+    for (const std::string& suffix : module_.element_suffixes(v.type)) {
+      r.name = name + suffix;
+      r.kind = storage ? ResourceKind::storage_buffer : ResourceKind::uniform_block;
+      r.slot = reflection_.buffer_count++;
+      r.minimum_size = layout.size(block_type);
+      r.read_only = !storage || read_only(v, block_type);
+      reflection_.resources.push_back(r);
+    }
+    const bool loaded = block_type == v.type && !storage && r.minimum_size <= kLargestLoadedBlock;
     const std::string instance = module_.name(v.id);
     Global& g = add(v, loaded ? Role::uniform : Role::buffer, instance.empty() ? name : instance);
-    g.slot = r.slot;
+    g.slot = slot;
     g.in_block = true;
   }
 
-  bool read_only(const Variable& v) const {
+  bool read_only(const Variable& v, Id block_type) const {
     if (module_.decorations_of(v.id).has(spv::DecorationNonWritable)) return true;
-    const auto& members = module_.type(v.type).members;
+    const auto& members = module_.type(block_type).members;
     for (std::uint32_t k = 0; k < members.size(); ++k)
-      if (!module_.member(v.type, k).has(spv::DecorationNonWritable)) return false;
+      if (!module_.member(block_type, k).has(spv::DecorationNonWritable)) return false;
     return true;
+  }
+
+  // Variables of a work group, one after another, laid out as uniforms are.
+  void shared(const Variable& v) {
+    Global& g = add(v, Role::shared, module_.name(v.id));
+    g.offset = reflection_.shared_bytes;
+    reflection_.shared_bytes += (Layout(module_, false).size(v.type) + 15) / 16 * 16;
   }
 
   const Program& program_;

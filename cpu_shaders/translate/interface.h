@@ -9,7 +9,7 @@
 
 namespace twinshade::spirv {
 
-enum class Role { input, builtin, output, frag_depth, global, uniform, sampler, buffer };
+enum class Role { input, builtin, output, frag_depth, global, uniform, sampler, buffer, shared };
 
 struct Global {
   Role role = Role::global;
@@ -18,7 +18,7 @@ struct Global {
   spv::BuiltIn builtin = spv::BuiltInMax;
   std::uint32_t first_component = 0;
   std::uint32_t slot = 0;    // samplers, blocks
-  std::uint32_t offset = 0;  // uniforms outside blocks
+  std::uint32_t offset = 0;  // uniforms outside blocks, shared variables
   bool mentioned = false;    // by a function that main reaches
   bool in_block = false;     // a uniform block small enough to be loaded once, before all invocations
 };
@@ -28,7 +28,7 @@ struct Interface {
   Reflection reflection;
 };
 
-// UserError for what cannot be bound: other sampler types, images, arrays of blocks, initialised uniforms ...
+// UserError for what cannot be bound: other sampler types, images ...
 Interface describe_interface(const Program& program, const SourceLines& lines, NameTable& names);
 
 }  // namespace twinshade::spirv

@@ -8,7 +8,7 @@ std::uint32_t round_up(std::uint32_t x, std::uint32_t to) { return (x + to - 1) 
 }  // namespace
 
 std::uint32_t Layout::alignment(Id id) const {
-  const Type& t = module_.type(id);
+  const Type& t = module_->type(id);
   switch (t.kind) {
     case Kind::vector:
       return t.count == 2 ? 8 : 16;
@@ -22,9 +22,9 @@ std::uint32_t Layout::alignment(Id id) const {
 }
 
 std::uint32_t Layout::member_offset(Id structure, std::uint32_t index) const {
-  if (decorated_) return module_.member(structure, index).get(spv::DecorationOffset);
+  if (decorated_) return module_->member(structure, index).get(spv::DecorationOffset);
   std::uint32_t at = 0;
-  const auto& members = module_.type(structure).members;
+  const auto& members = module_->type(structure).members;
   for (std::uint32_t k = 0;; ++k) {
     at = round_up(at, alignment(members[k]));
     if (k == index) return at;
@@ -34,22 +34,22 @@ std::uint32_t Layout::member_offset(Id structure, std::uint32_t index) const {
 
 MatrixLayout Layout::member_matrix(Id structure, std::uint32_t index) const {
   if (!decorated_) return {};
-  const Decorations& d = module_.member(structure, index);
+  const Decorations& d = module_->member(structure, index);
   return {d.get(spv::DecorationMatrixStride, 16), d.has(spv::DecorationRowMajor)};
 }
 
 std::uint32_t Layout::array_stride(Id array) const {
-  if (decorated_) return module_.decorations_of(array).get(spv::DecorationArrayStride);
-  return round_up(size(module_.type(array).element), 16);
+  if (decorated_) return module_->decorations_of(array).get(spv::DecorationArrayStride);
+  return round_up(size(module_->type(array).element), 16);
 }
 
 std::uint32_t Layout::size(Id id, const MatrixLayout& matrix) const {
-  const Type& t = module_.type(id);
+  const Type& t = module_->type(id);
   switch (t.kind) {
     case Kind::vector:
       return 4 * t.count;
     case Kind::matrix: {
-      const std::uint32_t rows = module_.type(t.element).count;
+      const std::uint32_t rows = module_->type(t.element).count;
       return matrix.row_major ? matrix.stride * (rows - 1) + 4 * t.count : matrix.stride * (t.count - 1) + 4 * rows;
     }
     case Kind::array:

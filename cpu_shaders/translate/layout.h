@@ -14,7 +14,7 @@ struct MatrixLayout {
 class Layout {
  public:
   // decorated: a block's; otherwise std140 of our own.
-  Layout(const Module& module, bool decorated) : module_(module), decorated_(decorated) {}
+  Layout(const Module& module, bool decorated) : module_(&module), decorated_(decorated) {}
 
   std::uint32_t member_offset(Id structure, std::uint32_t index) const;
   MatrixLayout member_matrix(Id structure, std::uint32_t index) const;
@@ -24,7 +24,7 @@ class Layout {
 
  private:
   std::uint32_t alignment(Id type) const;
-  const Module& module_;
+  const Module* module_;
   bool decorated_;
 };
 

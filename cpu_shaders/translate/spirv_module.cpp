@@ -63,6 +63,8 @@ class Parser {
         if (word(first + 1) == spv::ExecutionModeOriginUpperLeft ||
             word(first + 1) == spv::ExecutionModePixelCenterInteger)
           m.other_frag_coord = true;
+        for (std::size_t k = 0; word(first + 1) == spv::ExecutionModeLocalSize && k < 3; ++k)
+          m.local_size[k] = word(first + 2 + k);
         return;
       case spv::OpLine:
         file_ = word(first);
@@ -181,7 +183,8 @@ class Parser {
       case spv::OpSpecConstantFalse:
       case spv::OpSpecConstantComposite:
       case spv::OpSpecConstantOp:
-        throw UserError(here() + "specialisation constants (constant_id) are not supported: write a const");
+        throw UserError(lines_.mention({"constant_id"}).text() +
+                        ": specialisation constants (constant_id) are not supported: write a const");
       default:
         return false;
     }
@@ -314,6 +317,15 @@ const Decorations& Module::member(Id structure, std::uint32_t index) const {
   return found == member_decorations.end() ? none : found->second;
 }
 
+std::vector<std::string> Module::element_suffixes(Id id) const {
+  const Type& t = type(id);
+  if (t.kind != Kind::array) return {""};
+  std::vector<std::string> all;
+  for (std::uint32_t k = 0; k < t.count; ++k)
+    for (const std::string& rest : element_suffixes(t.element)) all.push_back("[" + std::to_string(k) + "]" + rest);
+  return all;
+}
+
 std::uint32_t Module::component_count(Id id) const {
   const Type& t = type(id);
   switch (t.kind) {
@@ -357,9 +369,16 @@ std::vector<Id> value_operands(const Instruction& i) {
       return {o[0]};
     case spv::OpImageSampleImplicitLod:
     case spv::OpImageSampleExplicitLod:
+    case spv::OpImageSampleProjImplicitLod:
+    case spv::OpImageSampleProjExplicitLod:
     case spv::OpImageFetch: {
       std::vector<Id> ids = {o[0], o[1]};
       if (o.size() > 3) ids.insert(ids.end(), o.begin() + 3, o.end());
+      return ids;
+    }
+    case spv::OpImageGather: {
+      std::vector<Id> ids = {o[0], o[1], o[2]};
+      if (o.size() > 4) ids.insert(ids.end(), o.begin() + 4, o.end());
       return ids;
     }
     case spv::OpBranchConditional:

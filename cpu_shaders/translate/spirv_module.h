@@ -106,6 +106,7 @@ struct Module {
   Id entry = 0;
   Id bound = 0;  // every id is smaller
   bool depth_replacing = false, early_tests = false, other_frag_coord = false;
+  std::uint32_t local_size[3] = {0, 0, 0};  // of a compute shader
 
   const Type& type(Id id) const { return types.at(id); }
   const Type& type_of(Id value) const { return types.at(value_types.at(value)); }
@@ -118,6 +119,13 @@ struct Module {
   const Decorations& member(Id structure, std::uint32_t index) const;
 
   Id new_id() { return bound++; }
+
+  // "[0][0]", "[0][1]" ... for the elements of an array of arrays, in order; one empty text for what is no array.
+  std::vector<std::string> element_suffixes(Id type) const;
+  // What an array, or array of arrays, is made of; the type itself if it is none.
+  Id innermost(Id type) const {
+    return this->type(type).kind == Kind::array ? innermost(this->type(type).element) : type;
+  }
 
   // Number of scalars in a type.
   std::uint32_t component_count(Id type) const;

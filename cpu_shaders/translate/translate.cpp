@@ -30,7 +30,7 @@ Translation translate(const ShaderSource& source, const TranslateOptions& option
   Translation translation;
   translation.identifier = options.identifier.empty() ? identifier_from(source.name) : options.identifier;
   const SourceLines lines(source);
-  spirv::Module module = spirv::parse(compile_fragment_glsl(source), lines);
+  spirv::Module module = spirv::parse(compile_glsl(source), lines);
   if (options.planted_bug) plant(module, *options.planted_bug);
   const spirv::Program program = spirv::analyse(std::move(module));
   refuse_large_variables(program, lines);

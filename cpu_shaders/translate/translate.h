@@ -1,4 +1,4 @@
-// GLSL to C++: one fragment shader becomes one C++ file in the form of docs/generated-code.md.
+// GLSL to C++: one fragment or compute shader becomes one C++ file in the form of docs/generated-code.md.
 #pragma once
 
 #include <optional>
@@ -35,6 +35,7 @@ struct ReflectedUniform {
   Scalar scalar = Scalar::f32;
   std::uint8_t columns = 1, rows = 1;
   std::uint32_t array_length = 0, offset = 0, array_stride = 0, matrix_stride = 0;
+  std::vector<std::uint32_t> initial;  // words of the initialiser; empty: none
 };
 struct ReflectedResource {
   std::string name;
@@ -51,6 +52,8 @@ struct Reflection {
   std::uint32_t input_components = 0, output_components = 0, uniform_bytes = 0, texture_count = 0, buffer_count = 0;
   bool discards = false, writes_depth = false, has_side_effects = false, uses_derivatives = false,
        uses_frag_coord = false, uses_front_facing = false, uses_primitive_id = false;
+  std::uint32_t local_size[3] = {0, 0, 0}, shared_bytes = 0;  // compute shaders
+  bool uses_barrier = false;
   std::string no_float64_reason;  // empty: it can run in double
 };
 

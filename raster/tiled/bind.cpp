@@ -107,17 +107,26 @@ class Binder {
       const ShaderUniform& wanted = module_.uniforms[i];
       const Uniform* uniform = bundle_.find_uniform(wanted.name);
       if (!uniform && wanted.array_length > 0) uniform = bundle_.find_uniform(std::string(wanted.name) + "[0]");
+      if (!uniform && wanted.initial != nullptr) {
+        put_uniform(wanted, wanted.initial);
+        continue;
+      }
       if (!uniform) fail("uniform " + quoted(wanted.name) + " is not in the bundle; " + inventory(bundle_.uniforms));
       const std::string wanted_type = type_name(wanted.scalar, wanted.columns, wanted.rows, wanted.array_length);
       const std::string type = type_name(uniform->scalar, uniform->columns, uniform->rows, uniform->array_length);
       if (type != wanted_type)
         fail("uniform " + quoted(wanted.name) + " is declared " + wanted_type + ", but the bundle's is " + type);
-      const float* value = uniform->values.data();
-      for (std::uint32_t element = 0; element < std::max(1u, wanted.array_length); ++element)
-        for (std::uint32_t column = 0; column < wanted.columns; ++column, value += wanted.rows)
-          std::memcpy(&draw_.uniforms[wanted.offset + element * wanted.array_stride + column * wanted.matrix_stride],
-                      value, wanted.rows * sizeof(float));
+      put_uniform(wanted, uniform->values.data());
     }
+  }
+
+  // word: of 4 bytes, element-major, column-major.
+  template <class Word>
+  void put_uniform(const ShaderUniform& wanted, const Word* word) {
+    for (std::uint32_t element = 0; element < std::max(1u, wanted.array_length); ++element)
+      for (std::uint32_t column = 0; column < wanted.columns; ++column, word += wanted.rows)
+        std::memcpy(&draw_.uniforms[wanted.offset + element * wanted.array_stride + column * wanted.matrix_stride],
+                    word, wanted.rows * sizeof(Word));
   }
 
   void bind_resources() {

@@ -18,7 +18,7 @@ using fuzz::Words;
 namespace {
 
 std::vector<std::uint32_t> spirv(const std::string& text) {
-  return compile_fragment_glsl(resolve_shader("program", text, "program.frag"));
+  return compile_glsl(resolve_shader("program", text, "program.frag"));
 }
 
 std::uint32_t bits(float x) { return std::bit_cast<std::uint32_t>(x); }
@@ -42,7 +42,7 @@ TEST_CASE("generated programs are translated, stay in the exact dialect and end"
     for (const LintFinding& finding : lint(source))
       CHECK_MESSAGE((finding.rule == "division" || finding.rule == "vector-store"), describe(finding));
     CHECK_NOTHROW(translate(source));
-    Interpreter interpreter(compile_fragment_glsl(source));
+    Interpreter interpreter(compile_glsl(source));
     std::map<std::string, Words> values;
     for (const auto* list : {&program.inputs, &program.uniforms})
       for (const fuzz::Interface& v : *list) values[v.name] = fuzz::interface_value(seed, v, 0);

@@ -20,6 +20,7 @@ SHADER(textures)
 SHADER(builtins)
 SHADER(functions)
 SHADER(globals)
+SHADER(language)
 #undef SHADER
 
 namespace {
@@ -337,6 +338,80 @@ TEST_CASE("globals under masks, input arrays and matrices, several outputs") {
       const double list[] = {2 + (a % 2 == 0 ? 1.0 : 0), 3 + (a % 2 == 0 ? 2.0 : 0), a % 2 == 1 ? 1.0 : 0,
                              a % 2 == 1 ? 2.0 : 0};
       for (std::size_t c = 0; c < 4; ++c) check_value(answer, "list", c, i, list[c], number);
+    }
+  }
+}
+
+TEST_CASE("input blocks, functions of two results, initialised uniforms, arrays of blocks and texture forms") {
+  Invocations in;
+  in.input = [](const std::string& name, std::uint32_t c, std::uint32_t i) -> double {
+    if (name == "surface[0].a" || name == "surface[1].a") return small_a(i);
+    if (name == "surface[0].b" || name == "surface[1].b") return small_b(i);
+    if (name == "surface[0].uv") return i * 0.75 + c;
+    if (name == "surface[1].uv") return 100.0 * c + i;
+    if (name == "scale") return 0.5;
+    if (name == "probe.at") return 10.0 * c + i;
+    if (name == "probe.weights") return 7.0 + c;
+    if (name == "grid[0]") return 1.0 + c;
+    if (name == "grid[1]") return 4.0 + c;
+    CHECK(name == "edge");
+    return 0.25;
+  };
+  for (std::uint32_t k = 0; k < twinshade_module_shader_language.uniform_count; ++k) {
+    const ShaderUniform& u = twinshade_module_shader_language.uniforms[k];
+    REQUIRE_MESSAGE(u.initial != nullptr, u.name);
+    const std::uint32_t words = u.columns * u.rows * (u.array_length == 0 ? 1u : u.array_length);
+    for (std::uint32_t w = 0; w < words; ++w) {
+      float value;
+      std::memcpy(&value, &u.initial[w], 4);
+      in.uniforms[u.name].push_back(u.scalar == Scalar::i32 ? static_cast<float>(static_cast<int>(u.initial[w]))
+                                                            : value);
+    }
+  }
+  put(in.buffers["Tint[0]"], 0, 1.0f, 2.0f, 3.0f, 4.0f);
+  put(in.buffers["Tint[1]"], 0, 10.0f, 20.0f, 30.0f, 40.0f);
+  // Texel x, y: red 1 + x + 4 y, green ten times that.
+  Invocations::Image map{4, 2, 1, {}};
+  for (int t = 0; t < 8; ++t)
+    for (float v : {1.0f + static_cast<float>(t), 10.0f + 10.0f * static_cast<float>(t), 0.0f, 0.0f})
+      map.texels.push_back(v);
+  in.textures["map"] = map;
+  for (int k = 0; k < 4; ++k) {
+    auto& image = in.textures["nested[" + std::to_string(k / 2) + "][" + std::to_string(k % 2) + "]"];
+    image = {1, 1, 1, {static_cast<float>(k), 0, 0, 0}};
+  }
+  for (Number number : kAll) {
+    for (const char* name : {"Sums[0]", "Sums[1]"}) in.buffers[name].assign(40, std::byte{0});
+    const Answer answer = RUN(language, number, in);
+    CHECK(get<std::uint32_t>(in.buffers["Sums[0]"], 0) == 0);
+    CHECK(get<std::uint32_t>(in.buffers["Sums[1]"], 0) == in.count);
+    for (std::size_t k = 0; k < 8; ++k) CHECK(get<std::uint32_t>(in.buffers["Sums[1]"], 4 + 4 * k) == 100 + k);
+    for (std::uint32_t i = 0; i < in.count; ++i) {
+      const int a = small_a(i), b = small_b(i);
+      const double inputs[] = {100.0 + i, 7.5 + (b & 1), 20.0 + i, 6.0 + (a & 1) * 3 + 1 + b % 3 + 0.25};
+      int e;
+      const double part = std::frexp(i * 0.75, &e);
+      const double split[] = {part, static_cast<double>(e), i * 0.75, -1};
+      const std::uint64_t sum = 4294967290u + std::uint64_t(a), product = (0x80000000u + std::uint64_t(a)) * 6;
+      std::uint32_t wide[] = {static_cast<std::uint32_t>(sum + (sum >> 32) * 1000),
+                              static_cast<std::uint32_t>(a - b + (a < b ? 1 : 0)),
+                              static_cast<std::uint32_t>(product >> 32), static_cast<std::uint32_t>(product)};
+      if (a > 3) {
+        wide[0] = a * b == 0 ? 0 : ~0u;
+        wide[1] = static_cast<std::uint32_t>(-a * b);
+      }
+      const double defaults[] = {2.5, 3, -7.0 + (b & 1 ? 4 : 2), 12};
+      // Of the four texels round the middle: (1, 1), (2, 1), (2, 0), (1, 0); one to the left for the red ones.
+      const double gathered[] = {60 + 5000, 70 + 6000, 30 + 2000, 20 + 1000};
+      const double forms[] = {7, 1, 3, 11};
+      for (std::size_t c = 0; c < 4; ++c) {
+        check_value(answer, "inputs_out", c, i, inputs[c], number);
+        check_value(answer, "split", c, i, split[c], number);
+        check_value(answer, "wide", c, i, wide[c], number);
+        check_value(answer, "defaults", c, i, defaults[c], number);
+        check_value(answer, "gathered", c, i, gathered[c], number);
+        check_value(answer, "forms", c, i, forms[c], number);
+      }
     }
   }
 }

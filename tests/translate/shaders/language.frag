@@ -1,0 +1,55 @@
+// Input blocks and structs, functions of two results, initialised uniforms, arrays of blocks, texture forms.
+#version 450
+in Surface { vec2 uv; flat int a; flat int b; } surface[2];
+in Loose { float scale; };
+struct Probe { vec3 at; float weights[2]; };
+in Probe probe;
+in float grid[2][3];
+centroid in float edge;
+
+uniform float gain = 2.5;
+uniform mat2 turn = mat2(1.0, 2.0, 3.0, 4.0);
+struct Pair { int first; vec2 second[2]; };
+uniform Pair pair = Pair(-7, vec2[2](vec2(1.0, 2.0), vec2(3.0, 4.0)));
+layout(std140) uniform Tint { vec4 value; } tints[2];
+layout(std430) buffer Sums { uint total; uint list[]; } sums[2];
+uniform int which = 1;
+uniform sampler2D map;
+uniform sampler2D nested[2][2];
+
+layout(location = 0) out vec4 inputs_out;
+layout(location = 1) out vec4 split;
+layout(location = 2) out uvec4 wide;
+layout(location = 3) out vec4 defaults;
+layout(location = 4) out vec4 gathered;
+layout(location = 5) out vec4 forms;
+
+void main() {
+  int a = surface[0].a, b = surface[1].b;
+  Probe copy = probe;
+  inputs_out = vec4(surface[1].uv.y, scale + copy.weights[b & 1], probe.at.z, grid[1][2] + grid[a & 1][b % 3] + edge);
+
+  ivec2 exponent;
+  vec2 part = frexp(vec2(surface[0].uv.x, 0.375), exponent);
+  split = vec4(part.x, float(exponent.x), ldexp(part.x, exponent.x), float(exponent.y));
+  uint carry, borrow, high, low;
+  uint sum = uaddCarry(4294967290u, uint(a), carry);
+  uint difference = usubBorrow(uint(a), uint(b), borrow);
+  umulExtended(uint(a) + 0x80000000u, 6u, high, low);
+  wide = uvec4(sum + carry * 1000u, difference + borrow, high, low);
+  if (a > 3) {
+    int top, bottom;
+    imulExtended(-a, b, top, bottom);
+    wide.x = uint(top), wide.y = uint(bottom);
+  }
+
+  defaults = vec4(gain, turn[1].x, float(pair.first) + pair.second[b & 1].y, tints[which].value.x + tints[0].value.y);
+  if (a == 2) sums[1].list[b] = uint(b) + 100u;
+  atomicAdd(sums[which].total, 1u);
+
+  vec2 middle = vec2(2.0, 1.0) / vec2(4.0, 2.0);  // of a map of 4 x 2: between texels
+  gathered = textureGather(map, middle, 1) + 1000.0 * textureGatherOffset(map, middle, ivec2(-1, 0));
+  vec2 first = vec2(0.5) / vec2(4.0, 2.0);
+  forms = vec4(textureOffset(map, first, ivec2(2, 1)).r, textureProj(map, vec3(first * 4.0, 4.0)).r,
+               texture(nested[1][which], first).r, float(textureQueryLevels(map)) + textureGrad(map, first, first, first).g);
+}

@@ -7,6 +7,7 @@
 #include "app/machines.h"
 #include "app/output.h"
 #include "app/provenance.h"
+#include "app/subject.h"
 #include "app/table.h"
 #include "base/error.h"
 #include "base/names.h"
@@ -54,6 +55,16 @@ Listing list_techniques() {
   listing.table.column("domain");
   listing.table.column("linear");
   listing.table.column("source");
+  const auto add_plain = [&](const std::string& name, const Json& file, const std::string& source) {
+    listing.table.row({name, "-", "-", "-", source});
+    listing.json.push_back({{"name", name},
+                            {"basis", false},
+                            {"coefficients", nullptr},
+                            {"domain", nullptr},
+                            {"linear", nullptr},
+                            {"file", file},
+                            {"source", source}});
+  };
   for (const TechniqueInfo& technique : techniques()) {
     const std::string name(technique.name), source(technique.source), file(technique.file);
     if (technique.is_basis) {
@@ -67,16 +78,10 @@ Listing list_techniques() {
                               {"file", "shaders/basis/" + file},
                               {"source", source}});
     } else {
-      listing.table.row({name, "-", "-", "-", source});
-      listing.json.push_back({{"name", name},
-                              {"basis", false},
-                              {"coefficients", nullptr},
-                              {"domain", nullptr},
-                              {"linear", nullptr},
-                              {"file", "shaders/technique/" + file},
-                              {"source", source}});
+      add_plain(name, "shaders/technique/" + file, source);
     }
   }
+  add_plain(kReferenceTechnique, nullptr, "rays from each pixel, direct light only: drawn by render alone");
   return listing;
 }
 

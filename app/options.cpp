@@ -184,6 +184,10 @@ void add_subject_options(CLI::App& command, SubjectOptions& options) {
              "how visibility's weights are kept (default: float32)",
              given("--visibility-storage",
                    [&](const std::string& text) { options.visibility.storage = find_texel_storage(text); }));
+  add_parsed(command, "--visibility-packing", "layers|dx9",
+             "weights and tables in texture arrays, or four values a texel in one texture each (default: layers)",
+             given("--visibility-packing",
+                   [&](const std::string& text) { options.visibility.packing = find_texture_packing(text); }));
   add_parsed(command, "--albedo", "on|off", "materials' colours (default: on)",
              given("--albedo", [&](const std::string& text) { options.albedo = parse_switch("--albedo", text); }));
   add_parsed(

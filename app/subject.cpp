@@ -11,6 +11,7 @@
 #include "base/names.h"
 #include "lighting/bake.h"
 #include "lighting/environment_light.h"
+#include "lighting/visibility_textures.h"
 #include "scenes/environment.h"
 #include "scenes/scene.h"
 
@@ -84,7 +85,7 @@ bool has_coefficients(const Bundle& bundle, const TechniqueInfo& technique, Coef
     if (storage == CoefficientStorage::vertex)
       return bundle.find_attribute(fmt::format("{}[{}]", weights, quads - 1)) != nullptr;
     const Texture* texture = bundle.find_texture(weights);
-    return storage == CoefficientStorage::lightmap && texture && texture->layers >= quads;
+    return storage == CoefficientStorage::lightmap && texture && stored_quads(*texture) >= quads;
   }
   if (!technique.is_basis) {
     const std::string* note = bundle.find_note("coefficients");
@@ -146,8 +147,8 @@ bool reads_coefficients(const LitTechnique& lit) {
 
 // What techniques of precomputed visibility read, from each storage that one of them is drawn from.
 void add_visibility(Bundle& bundle, const SubjectOptions& options, const ShadingOptions& shading, const Scene& scene,
-                    const Environment& environment, const std::vector<LitTechnique>& baked,
-                    const CommonOptions& common) {
+                    const Environment& environment, const std::vector<LitTechnique>& baked, const CommonOptions& common,
+                    const Output& output) {
   VisibilityOptions bake;
   bake.lightmap_size = options.lightmap_size;
   bake.rays = options.visibility_rays;
@@ -161,6 +162,10 @@ void add_visibility(Bundle& bundle, const SubjectOptions& options, const Shading
     if (!needed) continue;
     bake.per_vertex = storage == CoefficientStorage::vertex;
     bakes.push_back(bake_visibility(scene, bake));
+    if (const VisibilityBake& done = bakes.back(); done.rays_per_second > 0)
+      output.note(fmt::format("visibility baked for {} {}: {:.2f} million rays a second, {:.1f} MiB", done.cells(),
+                              storage == CoefficientStorage::vertex ? "vertices" : "texels",
+                              done.rays_per_second * 1e-6, double(done.memory_bytes) * 0x1p-20));
   }
   if (bakes.empty()) return;
   VisibilityLighting lighting = options.visibility;
@@ -169,7 +174,7 @@ void add_visibility(Bundle& bundle, const SubjectOptions& options, const Shading
 }
 
 Bundle bundle_from_scene(const SubjectOptions& options, const ShadingOptions& shading, const Scene& scene,
-                         const std::vector<LitTechnique>& baked, const CommonOptions& common) {
+                         const std::vector<LitTechnique>& baked, const CommonOptions& common, const Output& output) {
   const Environment environment = load_light(options);
 
   BakeOptions bake;
@@ -191,7 +196,7 @@ Bundle bundle_from_scene(const SubjectOptions& options, const ShadingOptions& sh
   }
 
   Bundle bundle = make_bundle(scene, lights, baked, frame_options(options, scene));
-  add_visibility(bundle, options, shading, scene, environment, baked, common);
+  add_visibility(bundle, options, shading, scene, environment, baked, common, output);
   return bundle;
 }
 
@@ -227,6 +232,7 @@ bool wants_all(const ShadingOptions& options) {
 std::vector<const TechniqueInfo*> chosen_techniques(const ShadingOptions& options) {
   std::vector<const TechniqueInfo*> chosen;
   for (const std::string& name : options.techniques) {
+    if (name == kReferenceTechnique) throw UserError(fmt::format("technique {}: {}", name, kReferenceReason));
     if (name != "all") {
       chosen.push_back(&find_technique(name));
       continue;
@@ -270,9 +276,11 @@ Subject load_subject(const SubjectOptions& options, const ShadingOptions& shadin
                                       ? " has no lightmap; use --light vertex"
                                       : " has no surfaces in the world whose visibility could be baked");
         });
-    subject.bundle = bundle_from_scene(
-        options, shading, scene, own_shader ? coefficients_read(text, scene, shading.light) : subject.drawn, common);
+    subject.bundle =
+        bundle_from_scene(options, shading, scene,
+                          own_shader ? coefficients_read(text, scene, shading.light) : subject.drawn, common, output);
   }
+  if (wants_all(shading)) subject.skipped.emplace_back(kReferenceTechnique, kReferenceReason);
   subject.hash = bundle_hash(subject.bundle);
   return subject;
 }
@@ -282,14 +290,19 @@ std::vector<Shading> load_shadings(const ShadingOptions& options, const Subject&
   if (!options.shader.empty()) {
     shadings.push_back({options.shader, "", "", load_shader(options.shader)});
   } else {
+    const TexturePacking packing = texture_packing(subject.bundle);
     for (const LitTechnique& lit : subject.drawn) {
       const std::string name(lit.technique->name), light(storage_name(lit.storage));
       if (!reads_sphere_map(*lit.technique)) {
-        shadings.push_back({name, light, "", technique_source(*lit.technique, lit.storage)});
+        shadings.push_back({name, light, "",
+                            stores_visibility(*lit.technique)
+                                ? visibility_source(*lit.technique, lit.storage, sphere_maps().front(), packing)
+                                : technique_source(*lit.technique, lit.storage)});
         continue;
       }
       for (const SphereMapInfo* map : chosen_maps(options))
-        shadings.push_back({name, light, std::string(map->name), visibility_source(*lit.technique, lit.storage, *map)});
+        shadings.push_back(
+            {name, light, std::string(map->name), visibility_source(*lit.technique, lit.storage, *map, packing)});
     }
   }
   return shadings;

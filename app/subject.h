@@ -34,9 +34,14 @@ struct Shading {
   }
 };
 
+// The technique that has no shader, and why only render draws it.
+inline constexpr const char* kReferenceTechnique = "reference";
+inline constexpr const char* kReferenceReason =
+    "it has no shader: the host traces rays from each pixel (twinshade render)";
+
 // Whether --technique says "all".
 bool wants_all(const ShadingOptions& options);
-// The techniques named; all of them for "all". UserError with the nearest names.
+// The techniques named; all of them that have shaders for "all". UserError with the nearest names.
 std::vector<const TechniqueInfo*> chosen_techniques(const ShadingOptions& options);
 
 // Loads, lights and bakes, or reads the bundle; says aloud what the loader had to say. The bundle carries the

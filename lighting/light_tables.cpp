@@ -146,21 +146,4 @@ LightTables blend_tables(const LightTables& a, const LightTables& b, float part)
   return out;
 }
 
-Texture light_table_texture(const std::string& name, const LightTables& tables, const SphereMapInfo& map, int width) {
-  TWINSHADE_CHECK_EQ(tables.texels, std::size_t(map.texels(width)));
-  Texture texture;
-  texture.name = name;
-  texture.kind = TextureKind::two_d_array;
-  texture.width = texture.height = std::uint32_t(width);
-  texture.layers = std::uint32_t(tables.rows) * std::uint32_t(map.layers);
-  texture.texels.resize(tables.rows * tables.texels * 4);
-  for (std::size_t row = 0; row < tables.rows; ++row)
-    for (std::size_t t = 0; t < tables.texels; ++t) {
-      float* texel = texture.texels.data() + (row * tables.texels + t) * 4;
-      for (std::size_t c = 0; c < 3; ++c) texel[c] = tables.values[(row * 3 + c) * tables.texels + t];
-      texel[3] = 1;
-    }
-  return texture;
-}
-
 }  // namespace twinshade

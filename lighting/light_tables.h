@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "bundle/bundle.h"
 #include "lighting/sphere_maps.h"
 
 namespace twinshade {
@@ -59,8 +58,5 @@ class LightTableMap {
 // a + (b - a) * part, 0 <= part <= 1: light that moves between two environments. Equal sizes.
 LightTables blend_tables(const LightTables& a, const LightTables& b, float part);
 void blend_tables(const LightTables& a, const LightTables& b, float part, LightTables& out);
-
-// RGB of row r, layer l of the map at layer r * map.layers + l; A is 1.
-Texture light_table_texture(const std::string& name, const LightTables& tables, const SphereMapInfo& map, int width);
 
 }  // namespace twinshade

@@ -46,6 +46,16 @@ std::string_view storage_name(CoefficientStorage storage) {
   return kNames[int(storage)];
 }
 
+std::string_view texture_packing_name(TexturePacking packing) {
+  return packing == TexturePacking::dx9 ? "dx9" : "layers";
+}
+
+TexturePacking find_texture_packing(const std::string& name) {
+  for (const TexturePacking packing : {TexturePacking::layers, TexturePacking::dx9})
+    if (name == texture_packing_name(packing)) return packing;
+  throw UserError(unknown_name_message("packing", name, {"layers", "dx9"}));
+}
+
 bool can_read(const TechniqueInfo& technique, CoefficientStorage storage) {
   if (!technique.is_basis || technique.domain == Domain::hemisphere) return storage != CoefficientStorage::volume;
   return technique.domain == Domain::either || storage == CoefficientStorage::volume;
@@ -65,23 +75,31 @@ std::string light_tables_name(const TechniqueInfo& technique, const SphereMapInf
   return "tables_" + std::string(technique.tables) + "_" + std::string(map.name);
 }
 
-ShaderSource visibility_source(const TechniqueInfo& technique, CoefficientStorage storage, const SphereMapInfo& map) {
+ShaderSource visibility_source(const TechniqueInfo& technique, CoefficientStorage storage, const SphereMapInfo& map,
+                               TexturePacking packing) {
   TWINSHADE_CHECK_EQ(technique.weights == VisibilityWeights::none, false);
   const bool vertex = storage == CoefficientStorage::vertex, mapped = reads_sphere_map(technique);
+  const bool packed = packing == TexturePacking::dx9 && (mapped || !vertex);
   std::string text = vertex ? "#define TWINSHADE_VERTEX_COEFFICIENTS 1\n" : "";
   text += "#define VISIBILITY " + visibility_name(technique.weights) + "\n";
   text += "#define VISIBILITY_COUNT " + std::to_string(technique.count) + "\n";
   text += "#define VISIBILITY_MEAN " + std::to_string(int(technique.has_mean)) + "\n";
   text += "#include \"technique/surface_world.glsl\"\n";
-  text += "#include \"technique/visibility_" + std::string(vertex ? "vertex" : "lightmap") + ".glsl\"\n";
+  text += "#include \"technique/visibility_" +
+          std::string(vertex   ? "vertex"
+                      : packed ? "lightmap_packed"
+                               : "lightmap") +
+          ".glsl\"\n";
   if (mapped) {
     text += "#define LIGHT_TABLES " + light_tables_name(technique, map) + "\n";
     text += "#include \"sphere_map/" + std::string(map.file) + "\"\n";
+    text += "#include \"technique/light_tables_" + std::string(packed ? "packed" : "layers") + ".glsl\"\n";
   }
   text += "#include \"technique/" + std::string(technique.file) + "\"\n";
   text += "#include \"technique/irradiance_main.glsl\"\n";
   const std::string name = std::string(technique.name) + (mapped ? "_" + std::string(map.name) : "");
-  return resolve_shader(name + (vertex ? "_vertex" : ""), text, std::string(technique.name));
+  return resolve_shader(name + (vertex ? "_vertex" : "") + (packed ? "_packed" : ""), text,
+                        std::string(technique.name));
 }
 
 ShaderSource technique_source(const TechniqueInfo& technique, CoefficientStorage storage,

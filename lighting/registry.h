@@ -33,6 +33,14 @@ enum class Projection {
 enum class CoefficientStorage { lightmap, vertex, volume };
 std::string_view storage_name(CoefficientStorage storage);  // as on the command line
 
+// How weights and tables of visibility techniques lie in textures. layers: in texture arrays. dx9: four values a texel
+// in one ordinary texture each, lightmaps and the layers of sphere maps side by side, as hardware without texture
+// arrays needs them; the same bits are drawn.
+enum class TexturePacking { layers, dx9 };
+std::string_view texture_packing_name(TexturePacking packing);
+// UserError with the nearest names where there is none.
+TexturePacking find_texture_packing(const std::string& name);
+
 // What a technique of precomputed visibility stores.
 enum class VisibilityWeights { none, sh, pca, ambient };
 
@@ -70,12 +78,14 @@ ShaderSource technique_source(const TechniqueInfo& technique, CoefficientStorage
                               const std::vector<std::string>& include_folders = {});
 
 // Visibility techniques. Names of what their shaders read: texture (lightmap; layer q: weights 4q to 4q + 3) or
-// attributes (vertex; "visibility_sh[q]"), and the texture array of L x H tables.
+// attributes (vertex; "visibility_sh[q]"), and the texture of L x H tables.
 bool reads_sphere_map(const TechniqueInfo& technique);
 std::string visibility_name(VisibilityWeights weights);
 std::string light_tables_name(const TechniqueInfo& technique, const SphereMapInfo& map);
-// The whole fragment shader, "unc3_cube" or "unc3_cube_vertex"; technique_source gives it for the first sphere map.
-ShaderSource visibility_source(const TechniqueInfo& technique, CoefficientStorage storage, const SphereMapInfo& map);
+// The whole fragment shader, "unc3_cube", "unc3_cube_vertex" or "unc3_cube_packed"; technique_source gives it for the
+// first sphere map, in layers.
+ShaderSource visibility_source(const TechniqueInfo& technique, CoefficientStorage storage, const SphereMapInfo& map,
+                               TexturePacking packing = TexturePacking::layers);
 
 // For the host: `in vec3 direction` to `out float value[BASIS_COUNT]`, the functions of a linear basis. UserError where
 // the technique is none. A direction with a NaN counts as the zero vector, here and below.

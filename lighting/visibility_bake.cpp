@@ -17,13 +17,13 @@
 #include "base/parallel.h"
 #include "base/portable_math.h"
 #include "lighting/bake_cache.h"
-#include "lighting/direction_sets.h"
 #include "lighting/fill.h"
 #include "lighting/progress.h"
 #include "lighting/radiance_basis.h"
 #include "lighting/random.h"
 #include "lighting/ray_scene.h"
 #include "lighting/receivers.h"
+#include "lighting/sphere_sets.h"
 
 namespace twinshade {
 namespace {
@@ -37,40 +37,7 @@ constexpr int kGutter = 8;          // texels
 constexpr double kInsideShare = 0.5;
 constexpr std::uint32_t kInsideRays = 64;
 
-enum RandomDomain : std::uint64_t { kChooseSet = 32, kScramble, kJitter, kChooseInside };
-
-// Directions of the whole sphere, one in each of `rays` bands of equal solid angle and evenly over azimuth, with their
-// SH values.
-class SphereSets {
- public:
-  SphereSets(std::uint32_t rays, std::uint64_t seed) : rays_(rays) {
-    // As many sets as fit a few megabytes: neighbouring texels almost never share one.
-    count_ = std::clamp<std::uint32_t>(65536u / rays, 16u, 4096u);
-    std::vector<glm::dvec3> exact;
-    exact.reserve(std::size_t(count_) * rays);
-    for (std::uint32_t set = 0; set < count_; ++set) {
-      const std::uint32_t scramble = std::uint32_t(random_bits(seed, kScramble, set));
-      for (std::uint32_t ray = 0; ray < rays; ++ray) {
-        const double a = (ray + unit_real(random_bits(seed, kJitter, set, ray))) / rays;
-        exact.push_back(hemisphere_direction(1 - 2 * a, scrambled_radical_inverse(ray, scramble) * 0x1p-32));
-      }
-    }
-    const std::vector<double> values = radiance_basis(exact, kVisibilityCount);
-    directions_.assign(exact.begin(), exact.end());
-    values_.assign(values.begin(), values.end());
-  }
-
-  std::uint32_t count() const { return count_; }
-  const glm::vec3* directions(std::uint32_t set) const { return directions_.data() + std::size_t(set) * rays_; }
-  // kVisibilityCount floats a ray.
-  const float* values(std::uint32_t set) const { return values_.data() + std::size_t(set) * rays_ * kVisibilityCount; }
-  std::size_t bytes() const { return directions_.size() * sizeof(glm::vec3) + values_.size() * sizeof(float); }
-
- private:
-  std::uint32_t rays_, count_;
-  std::vector<glm::vec3> directions_;
-  std::vector<float> values_;
-};
+enum RandomDomain : std::uint64_t { kChooseInside = 35 };
 
 // Square metres that each receiver stands for: a texel by its triangle's scale, a vertex by a third of its triangles.
 void measure_areas(const Scene& scene, const Receivers& receivers, std::vector<float>& area) {
@@ -150,7 +117,7 @@ class Baker {
  private:
   // Returns the number of rays traced.
   std::uint64_t look_around(const Receiver& receiver) {
-    const std::uint32_t set = std::uint32_t(random_bits(options_.seed, kChooseSet, receiver.cell) % sets_.count());
+    const std::uint32_t set = sets_.set_of(receiver.cell);
     const glm::vec3* directions = sets_.directions(set);
     const float* values = sets_.values(set);
     // In float for a few rays, then in double

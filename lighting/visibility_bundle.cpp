@@ -11,12 +11,14 @@
 #include "lighting/light_tables.h"
 #include "lighting/pca.h"
 #include "lighting/radiance_basis.h"
+#include "lighting/visibility_textures.h"
 
 namespace twinshade {
 namespace {
 
 constexpr int kMostOrder = 6;
 constexpr double kMostTableBytes = 0x1p31;
+constexpr const char* kPackingNote = "visibility_packing";
 constexpr std::size_t kAluCosine = 9;  // coefficients that visibility_pca_alu.glsl convolves
 
 std::size_t square(int order) { return std::size_t(order) * std::size_t(order); }
@@ -91,15 +93,7 @@ class Adder {
       }
       return;
     }
-    Texture texture;
-    texture.name = name;
-    texture.kind = TextureKind::two_d_array;
-    texture.width = bake.width, texture.height = bake.height, texture.layers = std::uint32_t(quads);
-    texture.texels.resize(quads * cells * 4);
-    for (std::size_t quad = 0; quad < quads; ++quad)
-      for (std::size_t i = 0; i < cells * 4; ++i)
-        texture.texels[quad * cells * 4 + i] = weight(i / 4, quad * 4 + i % 4);
-    bundle_.textures.push_back(std::move(texture));
+    bundle_.textures.push_back(weights_texture(name, bake.width, quads, options_.packing, weight));
   }
 
   // Rows of light times the components' mean and vectors, as SH of the components' order.
@@ -130,7 +124,8 @@ class Adder {
       throw UserError(fmt::format("map width {}: tables {} would take {:.1f} GiB, more than {:.0f}; make it smaller",
                                   options_.map_width, name, bytes * 0x1p-30, kMostTableBytes * 0x1p-30));
     const LightTableMap tables(map, options_.map_width, order);
-    bundle_.textures.push_back(light_table_texture(name, tables.tables(products), map, options_.map_width));
+    bundle_.textures.push_back(light_table_texture(name, tables.tables(products), map, options_.map_width,
+                                                   technique.has_mean, options_.packing));
   }
 
   void add_uniforms(const TechniqueInfo& technique) {
@@ -188,6 +183,12 @@ void add_visibility(Bundle& bundle, const Scene& scene, std::span<const Visibili
   bundle.notes.emplace_back("map_width", std::to_string(options.map_width));
   bundle.notes.emplace_back("visibility_order", std::to_string(options.order));
   bundle.notes.emplace_back("visibility_storage", std::string(texel_storage_name(options.storage)));
+  bundle.notes.emplace_back(kPackingNote, std::string(texture_packing_name(options.packing)));
+}
+
+TexturePacking texture_packing(const Bundle& bundle) {
+  const std::string* note = bundle.find_note(kPackingNote);
+  return note ? find_texture_packing(*note) : TexturePacking::layers;
 }
 
 }  // namespace twinshade

@@ -18,14 +18,18 @@ struct VisibilityLighting {
   int map_width = 32;                            // 1 to 4096
   int order = 6;                                 // of the visibility whose principal components are taken, 2 to 6
   TexelStorage storage = TexelStorage::float32;  // of the weights
+  TexturePacking packing = TexturePacking::layers;
 };
 
 // Weights, tables and uniforms of those of `wanted` that store visibility, each from its storage; normals, tangents and
 // lightmap coordinates where the bundle lacks them; notes. bakes: one of each storage that is needed; the principal
 // components are those of the first. radiance: of the environment, real SH l <= 5 in world space,
-// [j * 3 + c]. UserError where a width or an order is out of range.
+// [j * 3 + c]. UserError where a width or an order is out of range, or a texture would be too large.
 void add_visibility(Bundle& bundle, const Scene& scene, std::span<const VisibilityBake> bakes,
                     std::span<const double> radiance, std::span<const LitTechnique> wanted,
                     const VisibilityLighting& options);
+
+// How add_visibility packed the textures of a bundle; layers where it has none.
+TexturePacking texture_packing(const Bundle& bundle);
 
 }  // namespace twinshade

@@ -17,12 +17,26 @@ SphereMapTaps sphere_map_block(ivec2 low, ivec2 high, int layer, vec4 weight) {
   return taps;
 }
 
+vec4 sphere_map_filter(vec4 t00, vec4 t10, vec4 t01, vec4 t11, vec4 weight) {
+  precise vec4 filtered = (t00 * weight.x + t10 * weight.y) + (t01 * weight.z + t11 * weight.w);
+  return filtered;
+}
+
 // first_layer: of the map, a multiple of SPHERE_MAP_LAYERS.
 vec4 sphere_map_fetch(sampler2DArray maps, SphereMapTaps taps, int first_layer) {
   vec4 t00 = texelFetch(maps, ivec3(taps.texel_00.xy, taps.texel_00.z + first_layer), 0);
   vec4 t10 = texelFetch(maps, ivec3(taps.texel_10.xy, taps.texel_10.z + first_layer), 0);
   vec4 t01 = texelFetch(maps, ivec3(taps.texel_01.xy, taps.texel_01.z + first_layer), 0);
   vec4 t11 = texelFetch(maps, ivec3(taps.texel_11.xy, taps.texel_11.z + first_layer), 0);
-  precise vec4 filtered = (t00 * taps.weight.x + t10 * taps.weight.y) + (t01 * taps.weight.z + t11 * taps.weight.w);
-  return filtered;
+  return sphere_map_filter(t00, t10, t01, t11, taps.weight);
+}
+
+// The same from one ordinary texture of maps that are `width` texels wide: a map's layers side by side, one map above the other.
+vec4 sphere_map_fetch(sampler2D maps, SphereMapTaps taps, int width, int map) {
+  ivec2 corner = ivec2(0, map * width);
+  vec4 t00 = texelFetch(maps, corner + ivec2(taps.texel_00.x + taps.texel_00.z * width, taps.texel_00.y), 0);
+  vec4 t10 = texelFetch(maps, corner + ivec2(taps.texel_10.x + taps.texel_10.z * width, taps.texel_10.y), 0);
+  vec4 t01 = texelFetch(maps, corner + ivec2(taps.texel_01.x + taps.texel_01.z * width, taps.texel_01.y), 0);
+  vec4 t11 = texelFetch(maps, corner + ivec2(taps.texel_11.x + taps.texel_11.z * width, taps.texel_11.y), 0);
+  return sphere_map_filter(t00, t10, t01, t11, taps.weight);
 }

@@ -70,7 +70,7 @@ ShaderSource sphere_map_read_source(const SphereMapInfo& map) {
                            "out vec4 color;\n"
                            "void main() {\n"
                            "  vec3 direction = texelFetch(directions, ivec2(gl_FragCoord.xy), 0).rgb;\n"
-                           "  color = sphere_map_fetch(maps, sphere_map_taps(direction, width), first_layer);\n"
+                           "  color = sphere_map_fetch(maps, sphere_map_taps(direction, width), 1, first_layer);\n"
                            "}\n";
   return resolve_shader(name, text, name);
 }

@@ -77,6 +77,27 @@ TWINSHADE_INLINE Taps<N::width> locate(const TextureView& view, const ExactTaps&
   return {{y0 + x0, y0 + x1, y1 + x0, y1 + x1}, vec<typename N::F, 4>(taps.weight)};
 }
 
+// The taps that the struct SphereMapTaps of sphere_map/taps.glsl means (texel_00: x, y, layer of a map), of map `map` of `maps`
+// whose layers are interleaved.
+template <class N, class SphereMapTaps, class UI>
+TWINSHADE_INLINE Taps<N::width> locate(const TextureView& view, const SphereMapTaps& taps, const UI& maps,
+                                       const UI& map) {
+  using twinshade::detail::clamp_to_size;
+  using twinshade::detail::pitch;
+  using I = typename N::I;
+  using U = typename N::U;
+  const U slice = pitch<U>(view.layer_pitch);
+  const auto at = [&](const vec<I, 3>& texel) TWINSHADE_LAMBDA {
+    const I layer = clamp_to_size(texel.z * I(maps) + I(map), view.layers);
+    return twinshade::detail::texel_index(view, clamp_to_size(texel.x, view.width),
+                                          clamp_to_size(texel.y, view.height)) +
+           layer.template to<std::uint32_t>() * slice;
+  };
+  return {{at(vec<I, 3>(taps.texel_00)), at(vec<I, 3>(taps.texel_10)), at(vec<I, 3>(taps.texel_01)),
+           at(vec<I, 3>(taps.texel_11))},
+          vec<typename N::F, 4>(taps.weight)};
+}
+
 // --- one layer
 
 // Lanes first .. first + W - 1 of the whole.
@@ -256,6 +277,10 @@ template <class N>
 inline constexpr bool has_exact_fetch_4 = is_simd<N>;
 template <class N>
 inline constexpr bool has_exact_fetch_pair = is_simd<N>;
+template <class N>
+inline constexpr bool has_sphere_map_fetch = is_simd<N>;
+template <class N>
+inline constexpr bool has_sphere_map_fetch_4 = is_simd<N>;
 
 template <class N, class Real, class ExactTaps>
 TWINSHADE_INLINE vec<typename N::F, 4> exact_fetch(Sampler2D<Real> map, const ExactTaps& taps) {
@@ -327,6 +352,31 @@ TWINSHADE_INLINE mat<typename N::F, 2, 4> exact_fetch_pair(Sampler2DArray<Real> 
     }
   }
   return {exact_fetch<N>(first, taps, layer), exact_fetch<N>(second, taps, layer)};
+}
+
+template <class N, class Real, class SphereMapTaps, Lane I>
+TWINSHADE_INLINE vec<typename N::F, 4> sphere_map_fetch(Sampler2DArray<Real> array, const SphereMapTaps& taps,
+                                                        const I& maps, const I& map) {
+  static_assert(is_simd<N>);
+  return detail::filtered<N::width>(array.view->texels, detail::locate<N>(*array.view, taps, maps, map));
+}
+
+template <class N, class Real, class SphereMapTaps, Lane I>
+TWINSHADE_INLINE mat<typename N::F, 4, 4> sphere_map_fetch_4(Sampler2DArray<Real> array, const SphereMapTaps& taps,
+                                                             const I& maps, const I& first) {
+  static_assert(is_simd<N>);
+  const TextureView& view = *array.view;
+  const typename N::I start(first), count(maps);
+  // The last of the four within the texture, in every lane and tap.
+  const auto inside = [&](const auto& texel) TWINSHADE_LAMBDA {
+    const typename N::I layer = typename N::I(texel.z) * count + start;
+    return layer >= typename N::I(0) & layer <= typename N::I(view.layers - 4);
+  };
+  if (view.texel_pitch > 4 && all(inside(taps.texel_00) & inside(taps.texel_10) & inside(taps.texel_01) &
+                                  inside(taps.texel_11)))
+    return detail::filtered_4<N::width>(view.texels, detail::locate<N>(view, taps, maps, first));
+  const auto map = [&](int k) TWINSHADE_LAMBDA { return sphere_map_fetch<N>(array, taps, maps, first + I(k)); };
+  return {map(0), map(1), map(2), map(3)};
 }
 
 }  // namespace served

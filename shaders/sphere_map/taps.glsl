@@ -1,5 +1,4 @@
-// Four texels of a sphere map and their weights. A map is SPHERE_MAP_LAYERS layers of width x width texels; several maps lie one
-// after the other in a texture array. Addresses depend on direction and width alone: maps of one kind and width share them.
+// Four texels of a sphere map and their weights. A map is SPHERE_MAP_LAYERS layers of width x width texels. Addresses depend on direction and width alone: maps of one kind and width share them.
 
 struct SphereMapTaps {
   ivec3 texel_00, texel_10, texel_01, texel_11;  // x, y, layer within the map
@@ -22,13 +21,20 @@ vec4 sphere_map_filter(vec4 t00, vec4 t10, vec4 t01, vec4 t11, vec4 weight) {
   return filtered;
 }
 
-// first_layer: of the map, a multiple of SPHERE_MAP_LAYERS.
-vec4 sphere_map_fetch(sampler2DArray maps, SphereMapTaps taps, int first_layer) {
-  vec4 t00 = texelFetch(maps, ivec3(taps.texel_00.xy, taps.texel_00.z + first_layer), 0);
-  vec4 t10 = texelFetch(maps, ivec3(taps.texel_10.xy, taps.texel_10.z + first_layer), 0);
-  vec4 t01 = texelFetch(maps, ivec3(taps.texel_01.xy, taps.texel_01.z + first_layer), 0);
-  vec4 t11 = texelFetch(maps, ivec3(taps.texel_11.xy, taps.texel_11.z + first_layer), 0);
+// From an array of `maps` maps, their layers interleaved: layer l of map m is layer l * maps + m, so that what is read together lies
+// together.
+vec4 sphere_map_fetch(sampler2DArray array, SphereMapTaps taps, int maps, int map) {
+  vec4 t00 = texelFetch(array, ivec3(taps.texel_00.xy, taps.texel_00.z * maps + map), 0);
+  vec4 t10 = texelFetch(array, ivec3(taps.texel_10.xy, taps.texel_10.z * maps + map), 0);
+  vec4 t01 = texelFetch(array, ivec3(taps.texel_01.xy, taps.texel_01.z * maps + map), 0);
+  vec4 t11 = texelFetch(array, ivec3(taps.texel_11.xy, taps.texel_11.z * maps + map), 0);
   return sphere_map_filter(t00, t10, t01, t11, taps.weight);
+}
+
+// Maps first to first + 3, a column each; first + 3 < maps.
+mat4 sphere_map_fetch_4(sampler2DArray array, SphereMapTaps taps, int maps, int first) {
+  return mat4(sphere_map_fetch(array, taps, maps, first), sphere_map_fetch(array, taps, maps, first + 1),
+              sphere_map_fetch(array, taps, maps, first + 2), sphere_map_fetch(array, taps, maps, first + 3));
 }
 
 // The same from one ordinary texture of maps that are `width` texels wide: a map's layers side by side, one map above the other.

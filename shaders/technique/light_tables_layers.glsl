@@ -1,6 +1,7 @@
-// Colours of L x H tables towards a normal. Row r is the sphere map from layer r * SPHERE_MAP_LAYERS of the texture array
-// LIGHT_TABLES, RGB; the mean's row comes first. Includer defines LIGHT_TABLES; VISIBILITY_COUNT, the rows beside the mean;
-// VISIBILITY_MEAN, 1 where there is one. After a sphere map. light_tables_packed.glsl has the same functions.
+// Colours of L x H tables towards a normal: sphere maps of the texture array LIGHT_TABLES, RGB, interleaved as sphere_map_fetch has
+// them. Map 0 is the mean's, where there is one; the components' begin at map 4, so that fours of them are whole cache lines.
+// Includer defines LIGHT_TABLES; VISIBILITY_COUNT, the maps beside the mean's; VISIBILITY_MEAN, 1 where there is one. After a
+// sphere map. light_tables_packed.glsl has the same functions.
 
 uniform sampler2DArray LIGHT_TABLES;
 
@@ -13,21 +14,21 @@ SphereMapTaps light_table_taps(vec3 n) {
   return sphere_map_taps(n, textureSize(LIGHT_TABLES, 0).x);
 }
 
-vec3 light_table(SphereMapTaps taps, int row) {
-  return sphere_map_fetch(LIGHT_TABLES, taps, row * SPHERE_MAP_LAYERS).rgb;
+int light_table_count() {
+  return textureSize(LIGHT_TABLES, 0).z / SPHERE_MAP_LAYERS;
 }
 
 vec3 light_table_mean(SphereMapTaps taps) {
-  return light_table(taps, 0);
+  return sphere_map_fetch(LIGHT_TABLES, taps, light_table_count(), 0).rgb;
 }
 
-// The rows whose weights are 4 * quad to 4 * quad + 3.
+// The maps whose weights are 4 * quad to 4 * quad + 3.
 LightColors light_table_quad(SphereMapTaps taps, int quad) {
-  int row = quad * 4 + VISIBILITY_MEAN;
-  return LightColors(light_table(taps, row), light_table(taps, row + 1), light_table(taps, row + 2), light_table(taps, row + 3));
+  mat4 colors = sphere_map_fetch_4(LIGHT_TABLES, taps, light_table_count(), (quad + VISIBILITY_MEAN) * 4);
+  return LightColors(colors[0].rgb, colors[1].rgb, colors[2].rgb, colors[3].rgb);
 }
 
-// The row beyond all quads.
+// The map beyond all quads.
 vec3 light_table_last(SphereMapTaps taps) {
-  return light_table(taps, VISIBILITY_COUNT - 1 + VISIBILITY_MEAN);
+  return sphere_map_fetch(LIGHT_TABLES, taps, light_table_count(), VISIBILITY_COUNT - 1 + VISIBILITY_MEAN * 4).rgb;
 }

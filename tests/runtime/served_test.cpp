@@ -68,6 +68,22 @@ void main() {
 }
 )";
 
+// Maps of one layer and of several, the last one among them.
+constexpr const char* kMaps = R"(
+#include "sphere_map/dual_paraboloid.glsl"
+uniform sampler2DArray maps;
+in vec2 uv;
+in float layer;
+out vec4 one;
+out vec4 four[4];
+void main() {
+  SphereMapTaps taps = sphere_map_taps(vec3(uv - 0.5, layer - 1.5), textureSize(maps, 0).x);
+  one = sphere_map_fetch(maps, taps, 4, 3);
+  mat4 columns = sphere_map_fetch_4(maps, taps, 4, 0);
+  for (int i = 0; i < 4; ++i) four[i] = columns[i];
+}
+)";
+
 std::vector<float> random_rows(std::size_t rows, float spread) {
   std::vector<float> inputs(3 * rows);
   Random random(7);
@@ -168,6 +184,23 @@ TEST_CASE("fetches of several layers or textures give the bits of their GLSL, si
       check_served(kSeveral, name, inputs, std::array{array, array, array});
       check_served(kSeveral, name, inputs, std::array{together, left, right});
     }
+}
+
+TEST_CASE("fetches of sphere maps give the bits of their GLSL, side by side in memory or not") {
+  constexpr std::int32_t kWidth = 4, kLayers = 8;
+  std::vector<float> texels(std::size_t{kWidth} * kWidth * kLayers * 4);
+  for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = static_cast<float>(i % 97) * 0.37f - 9;
+  TextureView array = test_texture(3);
+  array.texels = texels.data();
+  array.width = array.height = kWidth;
+  array.layers = kLayers;
+  array.row_pitch = kWidth * 4;
+  array.layer_pitch = array.row_pitch * kWidth;
+  SideBySide four;
+  const TextureView together = four.layers(array);
+  for (const char* name : {"sphere_map_fetch", "sphere_map_fetch_4"})
+    for (const TextureView& view : {array, together})
+      for (const float spread : {1.0f, 0.001f}) check_served(kMaps, name, random_rows(4000, spread), std::array{view});
 }
 
 TEST_CASE("in double the transcendentals of shaders/exact/ are good to 1e-15, not to their float polynomials") {

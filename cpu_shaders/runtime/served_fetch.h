@@ -44,7 +44,7 @@ struct TapIndices {
   alignas(64) std::uint32_t at[4][W];
   TWINSHADE_INLINE explicit TapIndices(const Taps<W>& taps) {
     for (int tap = 0; tap < 4; ++tap) (taps.at[tap] + taps.at[tap]).store(at[tap]);
-    __asm__("" : "+m"(at));  // really through memory: taking registers apart lane by lane costs three times as much
+    __asm__("" : "+m"(at));  // really through memory: compilers would take registers apart lane by lane
   }
   TWINSHADE_INLINE const float* texel(const float* texels, int tap, int lane) const {
     return texels + std::size_t{at[tap][lane]} * 2;
@@ -172,9 +172,8 @@ TWINSHADE_INLINE Float16 odd_blocks(const Float16& a, const Float16& b) {
   return shuffle(a, b, [](int k) TWINSHADE_LAMBDA { return 4 + k / 4 % 2 * 8 + k % 4 + (k >= 8 ? 16 : 0); });
 }
 
-// Block b of rows[i] becomes block i of rows[b], for the register's 1, 2 or 4 blocks of 128 bits; rows are those j, j +
-// 4,
-// ... of W.
+// Block b of rows[i] becomes block i of rows[b], for the register's 1, 2 or 4 blocks of 128 bits; rows are those j,
+// j + 4 ... of W.
 template <class V, int W>
 TWINSHADE_INLINE void transpose_blocks(V (&rows)[W]) {
   constexpr auto low = [](int k) TWINSHADE_LAMBDA { return k % (W / 2) + (k >= W / 2 ? W : 0); };

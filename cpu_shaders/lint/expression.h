@@ -2,6 +2,7 @@
 // expressions too: they are where values go.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,6 +35,9 @@ struct Expression {
   Kind kind = Kind::literal;
   std::string text;
   int file = 0, line = 0;
+  std::size_t at = 0;                           // token that `text` is
+  std::size_t first = 0, last = 0;              // its tokens, [first, last)
+  std::size_t outer_first = 0, outer_last = 0;  // the same with the parentheses around it
   GlslType type;
   std::vector<ExpressionPtr> operands;
 
@@ -43,6 +47,7 @@ struct Expression {
   std::optional<long> integer;  // value, where it is a plain integer constant
   bool precise = false;         // assign and declaration: the target is `precise`; lvalues: their variable is
   std::vector<bool> written;    // call: arguments that are out or inout
+  std::optional<std::size_t> const_token;  // declaration: its `const`
 };
 
 }  // namespace twinshade::lint_detail

@@ -18,9 +18,12 @@ std::vector<LintFinding> lint(const ShaderSource& source) {
                         std::string(rule.message)};
     if (std::find(findings.begin(), findings.end(), finding) == findings.end()) findings.push_back(std::move(finding));
   };
-  lint_detail::Parser(tokens, [&](const lint_detail::Expression& expression) {
-    lint_detail::apply_rules(expression, report);
-  }).run();
+  struct Rules : lint_detail::Listener {
+    lint_detail::Report report;
+    void expression(const lint_detail::Expression& e, Role) override { lint_detail::apply_rules(e, report); }
+  } rules;
+  rules.report = report;
+  lint_detail::Parser(tokens, rules).run();
   return findings;
 }
 

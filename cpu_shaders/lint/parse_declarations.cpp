@@ -32,7 +32,7 @@ Variable builtin_variable(std::string_view keyword, int array_dimensions = 0) {
 
 }  // namespace
 
-Parser::Parser(const TokenList& list, Sink sink) : list_(list), tokens_(list.tokens), sink_(std::move(sink)) {
+Parser::Parser(const TokenList& list, Listener& listener) : list_(list), tokens_(list.tokens), listener_(listener) {
   scopes_.emplace_back();
   for (const char* name : {"gl_FragCoord"}) declare(name, builtin_variable("vec4"));
   for (const char* name : {"gl_PointCoord", "gl_SamplePosition"}) declare(name, builtin_variable("vec2"));
@@ -126,7 +126,7 @@ GlslType Parser::type_specifier() {
 
 void Parser::array_suffix(GlslType& type) {
   while (accept("[")) {
-    if (!is("]")) full_expression();
+    if (!is("]")) full_expression(Role::constant);
     expect("]");
     ++type.array_dimensions;
   }
@@ -162,10 +162,14 @@ void Parser::members(GlslType owner, bool global) {
 Parser::Declarator Parser::qualifiers_and_type() {
   Declarator declarator;
   while (is_qualifier(peek())) {
+    const std::size_t token = at_;
     const std::string qualifier = take().text;
     declarator.has_qualifier = true;
     if (qualifier == "precise") declarator.precise = true;
-    if (qualifier == "const") declarator.constant = true;
+    if (qualifier == "const") {
+      declarator.constant = true;
+      declarator.const_token = token;
+    }
     if (qualifier == "out" || qualifier == "inout") declarator.is_output = true;
     if ((qualifier == "layout" || qualifier == "subroutine") && is("(")) skip_balanced();
   }
@@ -202,10 +206,13 @@ void Parser::external_declaration() {
       return instance;
     }();
     members(block, !named);
-    if (named)
-      declarators({block});
-    else
+    if (named) {
+      Declarator instance;
+      instance.type = block;
+      declarators(instance);
+    } else {
       expect(";");
+    }
     return;
   }
   if (is("(", 1)) {
@@ -236,7 +243,10 @@ void Parser::function(const Declarator& declarator, const std::string& name) {
     accept(",");
   }
   functions_.emplace(name, function);
-  if (!accept(";")) block();
+  if (!accept(";")) {
+    listener_.function_begin(name, function.result, at_);
+    block();
+  }
   scopes_.pop_back();
 }
 
@@ -244,12 +254,14 @@ void Parser::function(const Declarator& declarator, const std::string& name) {
 void Parser::declarators(Declarator declarator) {
   if (accept(";")) return;
   do {
-    const Token name = take();
+    const std::size_t name = at_;
+    take();
     Variable variable;
     variable.type = declarator.type;
     variable.precise = declarator.precise;
     array_suffix(variable.type);
     ExpressionPtr declaration = make(Expression::Kind::declaration, name);
+    declaration->const_token = declarator.const_token;
     declaration->type = variable.type;
     declaration->precise = declarator.precise;
     if (accept("=")) {
@@ -260,8 +272,9 @@ void Parser::declarators(Declarator declarator) {
       if (variable.constant) variable.integer = value->integer;
       declaration->operands.push_back(std::move(value));
     }
-    sink_(*declaration);
-    declare(name.text, variable);
+    declaration = spanning(std::move(declaration), name);
+    listener_.expression(*declaration, in_for_header_ ? Role::loop_header : Role::statement);
+    declare(tokens_[name].text, variable);
   } while (accept(","));
   expect(";");
 }
@@ -275,60 +288,57 @@ void Parser::block() {
 }
 
 // The part in brackets of if, while and switch; while may declare a variable.
-void Parser::condition() {
+void Parser::condition(Role role) {
   expect("(");
   if (at_declaration()) {
     const Declarator declarator = qualifiers_and_type();
-    const Token name = take();
+    const std::size_t name = at_;
+    take();
     expect("=");
     ExpressionPtr declaration = make(Expression::Kind::declaration, name);
     declaration->type = declarator.type;
     declaration->operands.push_back(initializer(declarator.type));
-    sink_(*declaration);
+    declaration = spanning(std::move(declaration), name);
+    listener_.expression(*declaration, Role::condition);
     Variable variable;
     variable.type = declarator.type;
-    declare(name.text, variable);
+    declare(tokens_[name].text, variable);
   } else {
-    full_expression();
+    full_expression(role);
   }
   expect(")");
 }
 
 void Parser::statement() {
-  const Token first = peek();
+  const std::size_t first = at_;
   if (is("{")) return block();
   if (accept(";")) return;
   if (accept("if")) {
-    condition();
+    condition(Role::condition);
     statement();
     if (accept("else")) statement();
-  } else if (accept("while") || accept("switch")) {
+  } else if (is("while") || is("switch")) {
+    const Role role = take().text == "while" ? Role::condition : Role::selector;
     scopes_.emplace_back();
-    condition();
+    condition(role);
     statement();
     scopes_.pop_back();
   } else if (accept("do")) {
     statement();
     expect("while");
-    condition();
+    condition(Role::condition);
     expect(";");
   } else if (accept("for")) {
-    scopes_.emplace_back();
-    expect("(");
-    statement();
-    if (!is(";")) full_expression();
-    expect(";");
-    if (!is(")")) full_expression();
-    expect(")");
-    statement();
-    scopes_.pop_back();
+    for_loop();
   } else if (accept("return")) {
     ExpressionPtr result = make(Expression::Kind::result, first);
     if (!is(";")) result->operands.push_back(expression());
+    result = spanning(std::move(result), first);
     expect(";");
-    sink_(*result);
+    listener_.expression(*result, Role::result);
+    listener_.statement_end(first, at_);
   } else if (accept("case")) {
-    full_expression();
+    full_expression(Role::constant);
     expect(":");
   } else if (accept("default")) {
     expect(":");
@@ -342,10 +352,29 @@ void Parser::statement() {
       redeclare_precise();
     else
       declarators(declarator);
+    listener_.statement_end(first, at_);
   } else {
-    full_expression();
+    full_expression(in_for_header_ ? Role::loop_header : Role::statement);
     expect(";");
+    listener_.statement_end(first, at_);
   }
+}
+
+void Parser::for_loop() {
+  scopes_.emplace_back();
+  listener_.for_begin();
+  expect("(");
+  in_for_header_ = true;
+  statement();
+  in_for_header_ = false;
+  if (!is(";")) full_expression(Role::condition);
+  expect(";");
+  if (!is(")")) full_expression(Role::loop_header);
+  expect(")");
+  const std::size_t body = at_;
+  statement();
+  listener_.for_end(body, at_);
+  scopes_.pop_back();
 }
 
 }  // namespace twinshade::lint_detail

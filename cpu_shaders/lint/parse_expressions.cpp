@@ -41,35 +41,47 @@ GlslType literal_type(const std::string& text) {
 
 }  // namespace
 
-ExpressionPtr Parser::make(Kind kind, const Token& at) const {
+ExpressionPtr Parser::make(Kind kind, std::size_t at) const {
   auto made = std::make_unique<Expression>();
   made->kind = kind;
-  made->text = at.text;
-  made->file = at.file;
-  made->line = at.line;
+  made->text = tokens_[at].text;
+  made->file = tokens_[at].file;
+  made->line = tokens_[at].line;
+  made->at = at;
   return made;
 }
 
-void Parser::full_expression() { sink_(*expression()); }
+// From a token to where the parser is.
+ExpressionPtr Parser::spanning(ExpressionPtr made, std::size_t first) const {
+  made->first = made->outer_first = first;
+  made->last = made->outer_last = at_;
+  return made;
+}
+
+void Parser::full_expression(Role role) { listener_.expression(*expression(), role); }
 
 ExpressionPtr Parser::expression() {
   ExpressionPtr first = assignment();
   if (!is(",")) return first;
-  ExpressionPtr sequence = make(Kind::sequence, peek());
+  ExpressionPtr sequence = make(Kind::sequence, at_);
+  const std::size_t start = first->outer_first;
   sequence->operands.push_back(std::move(first));
   while (accept(",")) sequence->operands.push_back(assignment());
   sequence->type = sequence->operands.back()->type;
-  return sequence;
+  return spanning(std::move(sequence), start);
 }
 
 ExpressionPtr Parser::assignment() {
   ExpressionPtr left = conditional();
   if (!is_assignment(peek().text)) return left;
-  const Token op = take();
-  return assign(op, std::move(left), assignment());
+  const std::size_t op = at_;
+  take();
+  const std::size_t first = left->outer_first;
+  return assign(op, first, std::move(left), assignment());
 }
 
-ExpressionPtr Parser::assign(const Token& op, ExpressionPtr target, ExpressionPtr value) {
+// first: of its tokens; op stands there for ++x.
+ExpressionPtr Parser::assign(std::size_t op, std::size_t first, ExpressionPtr target, ExpressionPtr value) {
   ExpressionPtr made = make(Kind::assign, op);
   made->type = target->type;
   made->precise = target->precise;
@@ -77,49 +89,56 @@ ExpressionPtr Parser::assign(const Token& op, ExpressionPtr target, ExpressionPt
   const Expression* root = target.get();
   while (root->kind == Kind::member || root->kind == Kind::index) root = root->operands[0].get();
   if (Variable* variable = root->kind == Kind::variable ? find_variable(root->text) : nullptr) {
-    const bool whole = root == target.get() && op.text == "=";
+    const bool whole = root == target.get() && tokens_[op].text == "=";
     variable->has_zero = whole && value != nullptr && value->has_zero;
     variable->all_zero = whole && value != nullptr && value->all_zero;
   }
   made->operands.push_back(std::move(target));
   if (value) made->operands.push_back(std::move(value));
-  return made;
+  return spanning(std::move(made), first);
 }
 
 ExpressionPtr Parser::conditional() {
   ExpressionPtr condition = binary(1);
   if (!is("?")) return condition;
-  ExpressionPtr select = make(Kind::select, take());
+  ExpressionPtr select = make(Kind::select, at_);
+  take();
+  const std::size_t first = condition->outer_first;
   select->operands.push_back(std::move(condition));
   select->operands.push_back(expression());
   expect(":");
   select->operands.push_back(assignment());
   select->type = binary_type("?:", select->operands[1]->type, select->operands[2]->type);
   select->constant = all_constant(select->operands);
-  return select;
+  return spanning(std::move(select), first);
 }
 
 ExpressionPtr Parser::binary(int lowest_precedence) {
   ExpressionPtr left = unary();
   for (int level = precedence(peek().text); level >= lowest_precedence && level > 0; level = precedence(peek().text)) {
-    ExpressionPtr made = make(Kind::binary, take());
+    ExpressionPtr made = make(Kind::binary, at_);
+    take();
+    const std::size_t first = left->outer_first;
     ExpressionPtr right = binary(level + 1);
     made->type = binary_type(made->text, left->type, right->type);
     made->constant = left->constant && right->constant;
     made->operands.push_back(std::move(left));
     made->operands.push_back(std::move(right));
-    left = std::move(made);
+    left = spanning(std::move(made), first);
   }
   return left;
 }
 
 ExpressionPtr Parser::unary() {
   if (is("++") || is("--")) {
-    const Token op = take();
-    return assign(op, unary(), nullptr);
+    const std::size_t op = at_;
+    take();
+    return assign(op, op, unary(), nullptr);
   }
   if (!is("+") && !is("-") && !is("!") && !is("~")) return postfix();
-  ExpressionPtr made = make(Kind::unary, take());
+  const std::size_t first = at_;
+  ExpressionPtr made = make(Kind::unary, first);
+  take();
   ExpressionPtr operand = unary();
   made->type = operand->type;
   made->constant = operand->constant;
@@ -128,14 +147,16 @@ ExpressionPtr Parser::unary() {
   if (operand->integer && made->text == "-") made->integer = -*operand->integer;
   if (operand->integer && made->text == "+") made->integer = operand->integer;
   made->operands.push_back(std::move(operand));
-  return made;
+  return spanning(std::move(made), first);
 }
 
 ExpressionPtr Parser::postfix() {
   ExpressionPtr object = primary();
+  const std::size_t first = object->outer_first;
   for (;;) {
     if (is("[")) {
-      ExpressionPtr made = make(Kind::index, take());
+      ExpressionPtr made = make(Kind::index, at_);
+      take();
       made->precise = object->precise;
       made->constant = object->constant;
       made->has_zero = made->all_zero = object->all_zero;
@@ -144,13 +165,14 @@ ExpressionPtr Parser::postfix() {
       made->operands.push_back(expression());
       made->constant = made->constant && made->operands[1]->constant;
       expect("]");
-      object = std::move(made);
+      object = spanning(std::move(made), first);
     } else if (is(".")) {
       take();
       object = member_access(std::move(object));
     } else if (is("++") || is("--")) {
-      const Token op = take();
-      object = assign(op, std::move(object), nullptr);
+      const std::size_t op = at_;
+      take();
+      object = assign(op, first, std::move(object), nullptr);
     } else {
       return object;
     }
@@ -158,12 +180,14 @@ ExpressionPtr Parser::postfix() {
 }
 
 ExpressionPtr Parser::member_access(ExpressionPtr object) {
-  ExpressionPtr made = make(Kind::member, take());
+  const std::size_t first = object->outer_first;
+  ExpressionPtr made = make(Kind::member, at_);
+  take();
   if (made->text == "length" && accept("(")) {
     expect(")");
     made->type = scalar_type(Base::int32);
     made->constant = true;
-    return made;
+    return spanning(std::move(made), first);
   }
   made->precise = object->precise;
   if (object->type.base == Base::structure) {
@@ -179,19 +203,21 @@ ExpressionPtr Parser::member_access(ExpressionPtr object) {
   made->constant = object->constant;
   made->has_zero = made->all_zero = object->all_zero;
   made->operands.push_back(std::move(object));
-  return made;
+  return spanning(std::move(made), first);
 }
 
 ExpressionPtr Parser::initializer(const GlslType& type) {
   if (!is("{")) return assignment();
-  ExpressionPtr list = make(Kind::construct, take());
+  const std::size_t first = at_;
+  ExpressionPtr list = make(Kind::construct, first);
+  take();
   while (!accept("}")) {
     list->operands.push_back(initializer(element_type(type)));
     accept(",");
   }
   list->type = type;
   list->constant = all_constant(list->operands);
-  return list;
+  return spanning(std::move(list), first);
 }
 
 std::vector<ExpressionPtr> Parser::arguments() {
@@ -221,7 +247,7 @@ const Function* Parser::find_function(const std::string& name, const std::vector
 }
 
 // name(...): a constructor, a function of the shader, or a built-in one.
-ExpressionPtr Parser::invocation(const Token& name, GlslType constructed) {
+ExpressionPtr Parser::invocation(std::size_t name, GlslType constructed) {
   ExpressionPtr made = make(Kind::builtin, name);
   made->operands = arguments();
   made->constant = all_constant(made->operands);
@@ -236,7 +262,7 @@ ExpressionPtr Parser::invocation(const Token& name, GlslType constructed) {
     if (constructed.is_matrix() && made->operands.size() == 1 && made->operands[0]->type.rows == 1)
       made->has_zero = true;
     if (constructed.is_integer() && made->operands.size() == 1) made->integer = made->operands[0]->integer;
-  } else if (const Function* function = find_function(name.text, made->operands)) {
+  } else if (const Function* function = find_function(made->text, made->operands)) {
     made->kind = Kind::call;
     made->type = function->result;
     made->written = function->written;
@@ -244,35 +270,39 @@ ExpressionPtr Parser::invocation(const Token& name, GlslType constructed) {
   } else {
     std::vector<GlslType> types;
     for (const ExpressionPtr& argument : made->operands) types.push_back(argument->type);
-    made->type = builtin_type(name.text, types);
+    made->type = builtin_type(made->text, types);
   }
-  return made;
+  return spanning(std::move(made), name);
 }
 
 ExpressionPtr Parser::primary() {
   const Token token = peek();
+  const std::size_t start = at_;
   if (accept("(")) {
     ExpressionPtr inner = expression();
     expect(")");
+    inner->outer_first = start;
+    inner->outer_last = at_;
     return inner;
   }
   if (token.kind == Token::Kind::number) {
-    ExpressionPtr literal = make(Kind::literal, take());
+    ExpressionPtr literal = make(Kind::literal, start);
+    take();
     literal->type = literal_type(token.text);
     literal->constant = true;
     if (literal->type.is_integer()) literal->integer = static_cast<long>(std::strtoul(token.text.c_str(), nullptr, 0));
     literal->has_zero = literal->all_zero =
         literal->integer ? *literal->integer == 0 : std::strtod(token.text.c_str(), nullptr) == 0.0;
-    return literal;
+    return spanning(std::move(literal), start);
   }
   if (token.kind != Token::Kind::name) lost();
   if (is_type(token) || is("struct")) {
     GlslType type = type_specifier();
-    return invocation(token, type);
+    return invocation(start, type);
   }
   take();
-  if (is("(")) return invocation(token, {});
-  ExpressionPtr variable = make(Kind::variable, token);
+  if (is("(")) return invocation(start, {});
+  ExpressionPtr variable = make(Kind::variable, start);
   if (token.text == "true" || token.text == "false") {
     variable->kind = Kind::literal;
     variable->type = scalar_type(Base::boolean);
@@ -288,7 +318,7 @@ ExpressionPtr Parser::primary() {
     variable->type = scalar_type(Base::int32);
     variable->constant = true;
   }
-  return variable;
+  return spanning(std::move(variable), start);
 }
 
 }  // namespace twinshade::lint_detail

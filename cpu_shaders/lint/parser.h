@@ -2,7 +2,6 @@
 // reject anything, but it must not lose its place, and it says where it did.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -21,6 +20,33 @@ struct Variable {
   std::optional<long> integer;              // of a constant
 };
 
+// What the parser tells of, in the order of the text.
+class Listener {
+ public:
+  // What a full expression is for.
+  enum class Role {
+    statement,    // an expression or declaration statement, and what is declared at global scope
+    loop_header,  // the first and the last part of for (...; ...; ...)
+    condition,    // of if, while, do and for
+    selector,     // of switch
+    constant,     // array size, case label
+    result,       // return
+  };
+  Listener() = default;
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
+  virtual ~Listener() = default;
+  // Each full expression once; declarations with several names give one each.
+  virtual void expression(const Expression& expression, Role role) = 0;
+  // A function's body follows; its tokens begin with the brace.
+  virtual void function_begin(const std::string& /*name*/, const GlslType& /*result*/, std::size_t /*body_first*/) {}
+  // Behind a statement that is one expression, declaration or return: its tokens, with the semicolon.
+  virtual void statement_end(std::size_t /*first*/, std::size_t /*last*/) {}
+  // The header of a for loop follows; its body's tokens, once it has been read.
+  virtual void for_begin() {}
+  virtual void for_end(std::size_t /*body_first*/, std::size_t /*body_last*/) {}
+};
+
 struct Function {
   GlslType result;
   std::vector<GlslType> parameters;
@@ -29,15 +55,19 @@ struct Function {
 
 class Parser {
  public:
-  using Sink = std::function<void(const Expression&)>;  // gets each full expression once, in the order of the text
+  using Role = Listener::Role;
 
-  Parser(const TokenList& list, Sink sink);
+  Parser(const TokenList& list, Listener& listener);
   void run();
+
+  // Members of each structure that has been read so far.
+  const std::map<std::string, std::map<std::string, Variable>>& structures() const { return structures_; }
 
  private:
   struct Declarator {
     GlslType type;
     bool precise = false, constant = false, is_input = true, is_output = false, has_qualifier = false;
+    std::optional<std::size_t> const_token;
   };
 
   // tokens
@@ -64,7 +94,8 @@ class Parser {
   // statements
   void statement();
   void block();
-  void condition();
+  void condition(Role role);
+  void for_loop();
 
   // expressions
   ExpressionPtr expression();
@@ -76,11 +107,12 @@ class Parser {
   ExpressionPtr primary();
   ExpressionPtr member_access(ExpressionPtr object);
   ExpressionPtr initializer(const GlslType& type);
-  ExpressionPtr invocation(const Token& name, GlslType constructed);
+  ExpressionPtr invocation(std::size_t name, GlslType constructed);
   std::vector<ExpressionPtr> arguments();
-  void full_expression();
-  ExpressionPtr make(Expression::Kind kind, const Token& at) const;
-  ExpressionPtr assign(const Token& op, ExpressionPtr target, ExpressionPtr value);
+  void full_expression(Role role);
+  ExpressionPtr make(Expression::Kind kind, std::size_t at) const;
+  ExpressionPtr spanning(ExpressionPtr made, std::size_t first) const;
+  ExpressionPtr assign(std::size_t op, std::size_t first, ExpressionPtr target, ExpressionPtr value);
   const Function* find_function(const std::string& name, const std::vector<ExpressionPtr>& given) const;
 
   // names
@@ -90,7 +122,8 @@ class Parser {
 
   const TokenList& list_;
   const std::vector<Token>& tokens_;
-  Sink sink_;
+  Listener& listener_;
+  bool in_for_header_ = false;
   std::size_t at_ = 0;
   std::vector<std::map<std::string, Variable>> scopes_;
   std::map<std::string, std::map<std::string, Variable>> structures_;

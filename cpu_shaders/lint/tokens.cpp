@@ -113,6 +113,10 @@ class Tokenizer {
     const std::size_t end = std::min(text_.find('\n', at_), text_.size());
     const std::string line = text_.substr(at_, end - at_);
     at_ = end;
+    const std::size_t word = line.find_first_not_of("# \t");
+    if (word != std::string::npos && line.compare(word, 9, "extension") == 0 &&
+        line.find("GL_GOOGLE_cpp_style_line_directive") == std::string::npos)
+      list_.extensions.push_back(line);
     std::size_t number = line.find("line");
     if (number == std::string::npos || line.find_first_not_of("# \t") != number) return;
     number = line.find_first_of("0123456789", number);

@@ -19,6 +19,7 @@ struct Token {
 struct TokenList {
   std::vector<Token> tokens;  // the last one is Kind::end
   std::vector<std::string> files;
+  std::vector<std::string> extensions;  // the #extension lines, which are no tokens
 };
 
 // Macros expanded and conditionals resolved by glslang's preprocessor; numbers keep their spelling.

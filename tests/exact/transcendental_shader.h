@@ -6,13 +6,17 @@
 
 namespace twinshade::test {
 
-enum class Function { exp2 = 0, log2, pow, sin, cos, atan2, acos, asin };
+enum class Function { exp2 = 0, log2, pow, sin, cos, atan2, acos, asin, exp, log, tan, sinh, cosh, tanh };
+inline constexpr int kFunctions = 14;
 
 inline constexpr const char* kTranscendentalShader = R"(
 #include "exact/acos.glsl"
 #include "exact/atan2.glsl"
+#include "exact/exp.glsl"
+#include "exact/log.glsl"
 #include "exact/pow.glsl"
 #include "exact/sin_cos.glsl"
+#include "exact/tan.glsl"
 
 in float which;
 in float x;
@@ -28,7 +32,13 @@ void main() {
   else if (function == 4) value = exact_cos(x);
   else if (function == 5) value = exact_atan2(x, y);
   else if (function == 6) value = exact_acos(x);
-  else value = exact_asin(x);
+  else if (function == 7) value = exact_asin(x);
+  else if (function == 8) value = exact_exp(x);
+  else if (function == 9) value = exact_log(x);
+  else if (function == 10) value = exact_tan(x);
+  else if (function == 11) value = exact_sinh(x);
+  else if (function == 12) value = exact_cosh(x);
+  else value = exact_tanh(x);
 }
 )";
 

@@ -1,0 +1,185 @@
+#include "cpu_shaders/rewrite/exact_functions.h"
+
+#include <algorithm>
+
+#include "cpu_shaders/source/builtin_shaders.h"
+
+namespace twinshade::lint_detail {
+namespace {
+
+struct Entry {
+  std::string_view builtin, exact, file;
+  std::size_t arguments;
+  bool componentwise;  // the file has it for scalars only
+};
+
+constexpr Entry kFunctions[] = {
+    {"dot", "exact_dot", "dot", 2, false},
+    {"length", "exact_length", "length", 1, false},
+    {"distance", "exact_distance", "refract", 2, false},
+    {"normalize", "exact_normalize", "normalize", 1, false},
+    {"cross", "exact_cross", "cross", 2, false},
+    {"reflect", "exact_reflect", "reflect", 2, false},
+    {"refract", "exact_refract", "refract", 3, false},
+    {"faceforward", "exact_faceforward", "refract", 3, false},
+    {"mix", "exact_mix", "mix", 3, false},
+    {"fract", "exact_fract", "fract", 1, false},
+    {"mod", "exact_mod", "mod", 2, false},
+    {"sqrt", "exact_sqrt", "rounding", 1, false},
+    {"min", "exact_min", "rounding", 2, false},
+    {"max", "exact_max", "rounding", 2, false},
+    {"clamp", "exact_clamp", "rounding", 3, false},
+    {"step", "exact_step", "rounding", 2, false},
+    {"round", "exact_round", "rounding", 1, true},
+    {"roundEven", "exact_round", "rounding", 1, true},
+    {"sign", "exact_sign", "rounding", 1, true},
+    {"isnan", "exact_isnan", "rounding", 1, true},
+    {"isinf", "exact_isinf", "rounding", 1, true},
+    {"smoothstep", "exact_smoothstep", "smoothstep", 3, true},
+    {"sin", "exact_sin", "sin_cos", 1, true},
+    {"cos", "exact_cos", "sin_cos", 1, true},
+    {"tan", "exact_tan", "tan", 1, true},
+    {"asin", "exact_asin", "acos", 1, true},
+    {"acos", "exact_acos", "acos", 1, true},
+    {"atan", "exact_atan", "tan", 1, true},
+    {"atan", "exact_atan2", "atan2", 2, true},
+    {"sinh", "exact_sinh", "exp", 1, true},
+    {"cosh", "exact_cosh", "exp", 1, true},
+    {"tanh", "exact_tanh", "exp", 1, true},
+    {"pow", "exact_pow", "pow", 2, true},
+    {"exp", "exact_exp", "exp", 1, true},
+    {"log", "exact_log", "log", 1, true},
+    {"exp2", "exact_exp2", "exp2", 1, true},
+    {"log2", "exact_log2", "log2", 1, true},
+    {"matrixCompMult", "exact_matrixCompMult", "matrix_operators", 2, false},
+    {"outerProduct", "exact_outerProduct", "matrix_operators", 2, false},
+    {"determinant", "exact_determinant", "matrix_operators", 1, false},
+    {"inverse", "exact_inverse", "matrix_operators", 1, false},
+};
+
+std::string_view operator_name(std::string_view op) {
+  switch (op[0]) {
+    case '+':
+      return "exact_add";
+    case '-':
+      return "exact_subtract";
+    case '*':
+      return "exact_multiply";
+    default:
+      return "exact_divide";
+  }
+}
+
+// vec3 exact_pow(vec3 a, float b) { return vec3(exact_pow(a.x, b), exact_pow(a.y, b), exact_pow(a.z, b)); }
+std::string by_component(const Entry& entry, const std::vector<GlslType>& arguments, int rows) {
+  const bool classifies = entry.builtin == "isnan" || entry.builtin == "isinf";
+  const std::string result = (classifies ? "bvec" : "vec") + std::to_string(rows);
+  std::string text = result + " " + std::string(entry.exact) + "(";
+  for (std::size_t a = 0; a < arguments.size(); ++a)
+    text += (a > 0 ? ", " : "") + type_text(arguments[a]) + " " + "abc"[a];
+  text += ") { return " + result + "(";
+  for (int i = 0; i < rows; ++i) {
+    text += (i > 0 ? ", " : "") + std::string(entry.exact) + "(";
+    for (std::size_t a = 0; a < arguments.size(); ++a) {
+      text += (a > 0 ? ", " : "") + std::string(1, "abc"[a]);
+      if (arguments[a].rows > 1) text += std::string(".") + "xyzw"[i];
+    }
+    text += ")";
+  }
+  return text + "); }";
+}
+
+// What a function does with one argument of type vecN and others scalar (max(v, 0.0), step(0.5, v) ...) is in its file.
+int most_rows(const std::vector<GlslType>& arguments) {
+  int rows = 1;
+  for (const GlslType& argument : arguments) rows = std::max(rows, argument.rows);
+  return rows;
+}
+
+}  // namespace
+
+std::string exact_file(const std::string& path) {
+  const std::size_t folder = path.rfind("exact/"), ending = path.rfind(".glsl");
+  if (folder == std::string::npos || ending == std::string::npos || ending + 5 != path.size()) return "";
+  if (!builtin_shader(path.substr(folder))) return "";
+  return path.substr(folder + 6, ending - folder - 6);
+}
+
+std::string type_text(const GlslType& type) {
+  if (type.base != GlslType::Base::float32 || type.array_dimensions > 0) return "";
+  const std::string rows = std::to_string(type.rows), columns = std::to_string(type.columns);
+  if (type.columns > 1) return "mat" + columns + (type.columns == type.rows ? "" : "x" + rows);
+  return type.rows > 1 ? "vec" + rows : "float";
+}
+
+std::string ExactFunctions::function(std::string_view builtin, const std::vector<GlslType>& arguments) {
+  if (builtin == "inversesqrt" || builtin == "radians" || builtin == "degrees" || builtin == "fma" ||
+      builtin.substr(0, 6) == "fwidth") {
+    files_.insert("operators");
+    if (builtin == "inversesqrt") files_.insert("rounding");
+    const std::string name = "exact_" + std::string(builtin), type = type_text(arguments.at(0));
+    std::string body;
+    if (builtin == "inversesqrt") body = "exact_divide(1.0, exact_sqrt(a))";
+    if (builtin == "radians") body = "exact_multiply(a, 0.0174532924)";  // pi / 180
+    if (builtin == "degrees") body = "exact_multiply(a, 57.2957802)";    // 180 / pi
+    if (builtin == "fma") body = "exact_add(exact_multiply(a, b), c)";
+    if (builtin.substr(0, 6) == "fwidth") {
+      const std::string kind(builtin.substr(6));
+      body = "exact_add(abs(dFdx" + kind + "(a)), abs(dFdy" + kind + "(a)))";
+    }
+    const std::string more = builtin == "fma" ? ", " + type + " b, " + type + " c" : "";
+    generated_.insert(type + " " + name + "(" + type + " a" + more + ") { return " + body + "; }");
+    return name;
+  }
+  for (const Entry& entry : kFunctions) {
+    if (entry.builtin != builtin || entry.arguments != arguments.size()) continue;
+    files_.insert(std::string(entry.file));
+    const int rows = most_rows(arguments);
+    if (entry.componentwise && rows > 1) generated_.insert(by_component(entry, arguments, rows));
+    // a scalar has a direction and a length too
+    if (rows == 1 && (builtin == "dot" || builtin == "length" || builtin == "distance" || builtin == "normalize" ||
+                      builtin == "reflect" || builtin == "refract" || builtin == "faceforward"))
+      return "";
+    return std::string(entry.exact);
+  }
+  return "";
+}
+
+std::string ExactFunctions::arithmetic(std::string_view op, const GlslType& left, const GlslType& right) {
+  files_.insert("operators");
+  if (left.columns > 1 || right.columns > 1) files_.insert("matrix_operators");
+  return std::string(operator_name(op));
+}
+
+std::string ExactFunctions::assignment(std::string_view op, const GlslType& target, const GlslType& value,
+                                       bool postfix) {
+  const std::string name = arithmetic(op, target, value) + (postfix ? "_behind" : "_to");
+  const std::string type = type_text(target);
+  generated_.insert(type + " " + name + "(inout " + type + " target, " + type_text(value) + " value) { " + type +
+                    " old = target; target = " + arithmetic(op, target, value) + "(old, value); return " +
+                    (postfix ? "old" : "target") + "; }");
+  return name;
+}
+
+std::string ExactFunctions::with_component() {
+  files_.insert("operators");
+  return "exact_with";
+}
+
+std::string ExactFunctions::diagonal(const GlslType& matrix) {
+  files_.insert("matrix_operators");
+  return "exact_diagonal_" + std::to_string(matrix.columns);
+}
+
+std::string ExactFunctions::text(std::vector<std::string>& files) const {
+  std::string includes;
+  for (const std::string& file : files_) includes += "#include \"exact/" + file + ".glsl\"\n";
+  const ShaderSource prologue = resolve_shader("exact", includes, kExactFunctions);
+  for (const std::string& file : prologue.files)
+    if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
+  std::string text = prologue.text + "\n";
+  for (const std::string& function : generated_) text += function + "\n";
+  return text;
+}
+
+}  // namespace twinshade::lint_detail

@@ -1,0 +1,49 @@
+// Which function of shaders/exact/ stands for a built-in one, and the text that brings it in.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cpu_shaders/lint/glsl_type.h"
+#include "cpu_shaders/shader_source.h"
+
+namespace twinshade::lint_detail {
+
+// The functions that one rewritten shader needs.
+class ExactFunctions {
+ public:
+  // Name to call instead of a built-in function; empty where there is none. Argument types: after conversion to float.
+  std::string function(std::string_view builtin, const std::vector<GlslType>& arguments);
+  // Name to call instead of an operator: "+" gives exact_add.
+  std::string arithmetic(std::string_view op, const GlslType& left, const GlslType& right);
+  // x op= y as a call whose first argument is inout, where x may not be written twice. postfix: gives the old value.
+  std::string assignment(std::string_view op, const GlslType& target, const GlslType& value, bool postfix);
+  std::string with_component();                  // v, index, value: v with one component replaced
+  std::string diagonal(const GlslType& matrix);  // a matrix of one scalar, and zero
+
+  bool empty() const { return files_.empty(); }
+
+  // A file of shaders/exact/ that the shader includes itself.
+  void include(const std::string& file) { files_.insert(file); }
+
+  // Definitions with #line, to stand before the shader; adds its files to `files`.
+  std::string text(std::vector<std::string>& files) const;
+
+ private:
+  std::set<std::string> files_;
+  std::set<std::string> generated_;
+};
+
+// The file in messages of what ExactFunctions adds, but for the files of shaders/exact/ themselves.
+inline constexpr const char* kExactFunctions = "exact functions";
+
+// "dot" from "shaders/exact/dot.glsl" or a copy of it on disk; empty for other files.
+std::string exact_file(const std::string& path);
+
+// "vec3", "mat2x4", "float".
+std::string type_text(const GlslType& type);
+
+}  // namespace twinshade::lint_detail

@@ -1,0 +1,280 @@
+#include "cpu_shaders/rewrite/make_exact.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <set>
+
+#include "base/error.h"
+#include "cpu_shaders/lint/parser.h"
+#include "cpu_shaders/rewrite/exact_functions.h"
+#include "cpu_shaders/rewrite/token_edits.h"
+#include "cpu_shaders/translate/compile_glsl.h"
+
+namespace twinshade {
+namespace lint_detail {
+namespace {
+
+using Base = GlslType::Base;
+using Kind = Expression::Kind;
+
+bool is_comparison(const std::string& op) {
+  return op == "<" || op == ">" || op == "<=" || op == ">=" || op == "==" || op == "!=";
+}
+
+bool is_arithmetic(const std::string& op) { return op == "+" || op == "-" || op == "*" || op == "/"; }
+
+bool is_float(const GlslType& type) { return type.base == Base::float32 && type.array_dimensions == 0; }
+
+GlslType as_float(GlslType type) {
+  if (type.is_integer()) type.base = Base::float32;
+  return type;
+}
+
+bool is_integer_zero(const Expression& e) {
+  return e.kind == Kind::literal && e.type.is_integer() && e.integer && *e.integer == 0;
+}
+
+// Can be written twice: evaluating it changes nothing.
+bool is_repeatable(const Expression& e) {
+  if (e.kind == Kind::assign || e.kind == Kind::call) return false;
+  return std::all_of(e.operands.begin(), e.operands.end(), [](const ExpressionPtr& o) { return is_repeatable(*o); });
+}
+
+// Nine significant digits of the float that is meant.
+std::string literal_text(float value) {
+  std::string text = fmt::format("{:.9g}", value);
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+
+class MakeExact : public Listener {
+ public:
+  MakeExact(const TokenList& list, ExactScope scope) : edits_(list), scope_(scope) {}
+
+  void expression(const Expression& e, Role role) override {
+    if (role == Role::constant) return;
+    rewrite(e, {false, role == Role::condition || role == Role::selector || role == Role::result});
+  }
+
+  TokenEdits edits_;
+  ExactFunctions functions_;
+  bool uses_zero_ = false;
+
+ private:
+  struct Place {
+    bool compared = false;  // operand of a comparison: a zero there does no harm
+    bool used = true;       // something takes the value
+  };
+
+  bool in_scope(const Expression& e) const { return scope_ == ExactScope::everything || e.constant; }
+
+  // Each returns whether the expression, as rewritten, is no longer a constant one.
+
+  bool rewrite(const Expression& e, Place place) {
+    switch (e.kind) {
+      case Kind::literal:
+        return literal(e, place);
+      case Kind::variable:
+        return made_variable_.count(e.text) != 0;
+      case Kind::binary:
+        return binary(e);
+      case Kind::assign:
+        return assign(e, place);
+      case Kind::builtin:
+        return builtin(e);
+      case Kind::construct:
+        return construct(e);
+      case Kind::declaration:
+        return declaration(e);
+      case Kind::sequence: {
+        for (std::size_t i = 0; i < e.operands.size(); ++i)
+          rewrite(*e.operands[i], {false, place.used && i + 1 == e.operands.size()});
+        return true;
+      }
+      case Kind::select: {
+        bool varies = operands(e);
+        for (std::size_t i = 1; i < e.operands.size(); ++i)
+          if (is_float(e.type)) varies |= to_float(*e.operands[i]);
+        return varies;
+      }
+      default:
+        return operands(e, place.compared) || e.kind == Kind::call;
+    }
+  }
+
+  bool operands(const Expression& e, bool compared = false) {
+    bool varies = false;
+    for (const ExpressionPtr& operand : e.operands) varies |= rewrite(*operand, {compared, true});
+    return varies;
+  }
+
+  bool zero_at(const Expression& e) {
+    uses_zero_ = true;
+    edits_.replace(e.at, kExactZero);
+    return true;
+  }
+
+  bool literal(const Expression& e, Place place) {
+    if (scope_ != ExactScope::everything || e.type.base != Base::float32) return false;
+    const float value = std::strtof(e.text.c_str(), nullptr);
+    if (value == 0.0F && !place.compared) return zero_at(e);
+    if (std::isnormal(value)) edits_.replace(e.at, literal_text(value));
+    return false;
+  }
+
+  // An operand that GLSL converts by itself, converted in writing.
+  bool to_float(const Expression& e) {
+    if (!e.type.is_integer() || e.type.array_dimensions > 0) return false;
+    if (is_integer_zero(e) && scope_ == ExactScope::everything) return zero_at(e);
+    edits_.before(e.outer_first, type_text(as_float(e.type)) + "(");
+    edits_.behind(e.outer_last - 1, ")");
+    return false;
+  }
+
+  bool binary(const Expression& e) {
+    bool varies = operands(e, is_comparison(e.text));
+    const Expression &left = *e.operands[0], &right = *e.operands[1];
+    if (!is_arithmetic(e.text) || !is_float(e.type) || !in_scope(e)) return varies;
+    if (type_text(as_float(left.type)).empty() || type_text(as_float(right.type)).empty()) return varies;
+    to_float(left);
+    to_float(right);
+    edits_.before(e.first, functions_.arithmetic(e.text, as_float(left.type), as_float(right.type)) + "(");
+    edits_.replace(e.at, ",");
+    edits_.behind(e.last - 1, ")");
+    return true;
+  }
+
+  std::string text(const Expression& e) const { return edits_.text(e.outer_first, e.outer_last); }
+
+  // = += ++ ... where the target is a float.
+  bool assign(const Expression& e, Place place) {
+    operands(e);
+    const Expression& target = *e.operands[0];
+    if (!is_float(e.type) || scope_ != ExactScope::everything) return true;
+    const bool steps = e.text == "++" || e.text == "--";
+    GlslType value_type;
+    std::string value;
+    if (steps) {
+      value_type.base = Base::float32;
+      value = "1.0";
+    } else {
+      to_float(*e.operands[1]);
+      value_type = as_float(e.operands[1]->type);
+      value = text(*e.operands[1]);
+    }
+    if (e.text != "=" && (!is_arithmetic(e.text.substr(0, 1)) || type_text(value_type).empty())) return true;
+
+    const bool postfix = steps && e.at != e.first && place.used;
+    if (postfix || (e.text != "=" && !is_repeatable(target))) {
+      edits_.collapse(
+          e.first, e.last,
+          functions_.assignment(e.text, e.type, value_type, postfix) + "(" + text(target) + ", " + value + ")");
+      return true;
+    }
+    if (e.text != "=")
+      value = functions_.arithmetic(e.text, e.type, value_type) + "(" + text(target) + ", " + value + ")";
+    const bool component = target.kind == Kind::index && target.operands[0]->type.is_vector() &&
+                           !target.operands[1]->constant && is_repeatable(target);
+    if (component) {
+      const std::string vector = text(*target.operands[0]), index = text(*target.operands[1]);
+      const std::string store =
+          vector + " = " + functions_.with_component() + "(" + vector + ", int(" + index + "), " + value + ")";
+      // as a value, the assignment is the component
+      edits_.collapse(e.first, e.last, place.used ? "(" + store + ")[" + index + "]" : store);
+    } else if (e.text != "=") {
+      const std::string store = text(target) + " = " + value;
+      edits_.collapse(e.first, e.last, place.used ? "(" + store + ")" : store);
+    }
+    return true;
+  }
+
+  bool builtin(const Expression& e) {
+    const bool varies = operands(e);
+    const bool classifies = e.text == "isnan" || e.text == "isinf";
+    if ((!is_float(e.type) && !classifies) || !in_scope(e)) return varies;
+    if (e.text == "mix" && e.operands.size() == 3 && e.operands[2]->type.base == Base::boolean) return varies;
+    std::vector<GlslType> arguments;
+    for (const ExpressionPtr& argument : e.operands) {
+      arguments.push_back(as_float(argument->type));
+      if (type_text(arguments.back()).empty()) return varies;
+    }
+    if (arguments.empty()) return varies;
+    const std::string name = functions_.function(e.text, arguments);
+    if (name.empty()) return varies;
+    for (const ExpressionPtr& argument : e.operands) to_float(*argument);
+    edits_.replace(e.at, name);
+    return true;
+  }
+
+  bool construct(const Expression& e) {
+    bool varies = operands(e);
+    if (e.type.base != Base::float32 || scope_ != ExactScope::everything) return varies;
+    for (const ExpressionPtr& operand : e.operands)
+      if (is_integer_zero(*operand)) varies = zero_at(*operand);
+    const bool diagonal = e.type.is_matrix() && e.type.columns == e.type.rows && e.operands.size() == 1 &&
+                          e.operands[0]->type.rows == 1 && e.operands[0]->type.columns == 1 && e.text != "{";
+    if (diagonal) {
+      uses_zero_ = true;
+      edits_.replace(e.at, functions_.diagonal(e.type));
+      edits_.behind(e.operands[0]->outer_last - 1, std::string(", ") + kExactZero);
+      varies = true;
+    }
+    return varies;
+  }
+
+  // A constant whose value is now computed by functions becomes a variable.
+  bool declaration(const Expression& e) {
+    if (e.operands.empty()) return false;
+    bool varies = operands(e);
+    if (is_float(e.type)) varies |= to_float(*e.operands[0]);
+    if (!e.const_token) return varies;
+    std::set<std::string>& names = constants_[*e.const_token];
+    names.insert(e.text);
+    if (varies) edits_.replace(*e.const_token, "");
+    if (varies || made_variable_.count(*names.begin()) != 0) made_variable_.insert(names.begin(), names.end());
+    return varies;
+  }
+
+  const ExactScope scope_;
+  std::set<std::string> made_variable_;
+  std::map<std::size_t, std::set<std::string>> constants_;  // by their `const`
+};
+
+}  // namespace
+}  // namespace lint_detail
+
+ExactShader make_exact(const ShaderSource& source, ExactScope scope) {
+  using namespace lint_detail;
+  compile_glsl(source);  // the parser relies on valid GLSL
+  const TokenList tokens = tokenize(source);
+  MakeExact rewrite(tokens, scope);
+  Parser(tokens, rewrite).run();
+
+  ExactShader result;
+  result.source = source;
+  result.source.version = 450;
+  result.source.es = false;
+  result.uses_zero = rewrite.uses_zero_;
+  result.changed = result.uses_zero || !rewrite.functions_.empty();
+  std::string text;
+  if (!source.es)
+    for (const std::string& extension : tokens.extensions) text += extension + "\n";
+  for (const std::string& file : tokens.files)
+    if (const std::string name = exact_file(file); !name.empty()) rewrite.functions_.include(name);
+  text += rewrite.functions_.text(result.source.files);
+  if (result.uses_zero) text += std::string("uniform float ") + kExactZero + ";\n";
+  text += rewrite.edits_.lines([](const std::string& file) { return !exact_file(file).empty(); });
+  result.source.text = text;
+  try {
+    result.left = lint(result.source);
+  } catch (const UserError& error) {
+    throw UserError(std::string(error.what()) + " (in the shader as --make-exact rewrites it)");
+  }
+  return result;
+}
+
+}  // namespace twinshade

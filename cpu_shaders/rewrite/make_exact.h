@@ -1,0 +1,33 @@
+// Any shader in the exact dialect (docs/exact-dialect.md): its operators and built-in functions become calls of the
+// functions in shaders/exact/, each of which is one precise operation or made of them. What the author wrote is then
+// the same bits on every machine, though not the same function values that some driver has for sin, say.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cpu_shaders/lint/lint.h"
+#include "cpu_shaders/shader_source.h"
+
+namespace twinshade {
+
+// A uniform float that the result reads in the place of literal zeros: it must be 0. Compilers drop x + 0.0 and x * 0.0
+// even where told to be precise, so they may not see the zero.
+inline constexpr const char* kExactZero = "exact_zero";
+
+struct ExactShader {
+  ShaderSource source;            // GLSL 450; every line keeps its file and number
+  bool changed = false;           // something was in the scope
+  bool uses_zero = false;         // it has the uniform kExactZero
+  std::vector<LintFinding> left;  // what is still outside the exact dialect, where the author wrote it
+};
+
+enum class ExactScope {
+  everything,
+  constants,  // only arithmetic between constants: what compilers fold
+};
+
+// UserError where the shader is not valid GLSL.
+ExactShader make_exact(const ShaderSource& source, ExactScope scope = ExactScope::everything);
+
+}  // namespace twinshade

@@ -1,0 +1,141 @@
+// Shaders as make_exact rewrites them: nothing is left outside the dialect, or it is named; lines stay where they were.
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "cpu_shaders/rewrite/make_exact.h"
+
+namespace twinshade {
+namespace {
+
+constexpr const char* kDeclarations = R"(
+in vec3 a; in vec3 b; flat in int k; uniform mat3 m; uniform mat4 m4; uniform mat2x3 n; uniform sampler2D map;
+const float HALF = 0.5; const float THIRD = 1.0 / 3.0;
+struct Light { vec3 colour; float power; };
+float twice(float x) { return x + x; }
+void fill(out float x) { x = 1.0 + 0.0; }
+layout(location = 0) out vec4 color;
+)";
+
+ShaderSource shader_of(const std::string& body, const std::string& before_main = "") {
+  return resolve_shader("sample", kDeclarations + before_main + "\nvoid main() {\n" + body + "\n}\n", "sample.frag");
+}
+
+std::string left_of(const std::string& body, const std::string& before_main = "") {
+  std::string list;
+  for (const LintFinding& finding : make_exact(shader_of(body, before_main)).left) list += describe(finding) + "\n";
+  return list;
+}
+
+// The rewritten statement: what stands between main's braces.
+std::string body_of(const std::string& body, ExactScope scope = ExactScope::everything) {
+  const std::string text = make_exact(shader_of(body), scope).source.text;
+  const std::size_t open = text.find('{', text.find("void main")) + 1;
+  std::string inside = text.substr(open, text.rfind('}') - open), plain;
+  for (const char c : inside)
+    if (c != ' ' && c != '\n') plain += c;
+  return plain;
+}
+
+}  // namespace
+
+TEST_CASE("operators become calls that keep grouping, operand order and implicit conversions") {
+  CHECK(body_of("float x = a.x * b.x + a.y;") == "floatx=exact_add(exact_multiply(a.x,b.x),a.y);");
+  CHECK(body_of("float x = (a.x + b.x) * 2.0;") == "floatx=exact_multiply((exact_add(a.x,b.x)),2.0);");
+  CHECK(body_of("float x = a.x - (b.x - a.y) - 1;") ==
+        "floatx=exact_subtract(exact_subtract(a.x,(exact_subtract(b.x,a.y))),float(1));");
+  CHECK(body_of("float x = k / a.x;") == "floatx=exact_divide(float(k),a.x);");
+  CHECK(body_of("int i = k * 3 + 1;") == "inti=k*3+1;");
+  CHECK(body_of("vec3 v = m * a;") == "vec3v=exact_multiply(m,a);");
+  CHECK(body_of("bool c = a.x * b.x > 0.0;") == "boolc=exact_multiply(a.x,b.x)>0.0;");
+}
+
+TEST_CASE("assignments that compute write their target once") {
+  CHECK(body_of("float x = a.x; x += b.x;") == "floatx=a.x;x=exact_add(x,b.x);");
+  CHECK(body_of("vec3 v = a; v.xy *= 2.0;") == "vec3v=a;v.xy=exact_multiply(v.xy,2.0);");
+  CHECK(body_of("float x = a.x; x++;") == "floatx=a.x;x=exact_add(x,1.0);");
+  CHECK(body_of("float x = a.x; float y = ++x;") == "floatx=a.x;floaty=(x=exact_add(x,1.0));");
+  CHECK(body_of("float x = a.x; float y = x--;") == "floatx=a.x;floaty=exact_subtract_behind(x,1.0);");
+  CHECK(body_of("float x[3]; int i = 0; x[i++] /= a.x;") == "floatx[3];inti=0;exact_divide_to(x[i++],a.x);");
+  CHECK(body_of("vec3 v = a; v[k] = a.x * b.x;") == "vec3v=a;v=exact_with(v,int(k),exact_multiply(a.x,b.x));");
+  CHECK(body_of("vec3 v = a; v[k] -= b.x;") == "vec3v=a;v=exact_with(v,int(k),exact_subtract(v[k],b.x));");
+  CHECK(body_of("vec3 v = a; v *= m;") == "vec3v=a;v=exact_multiply(v,m);");
+}
+
+TEST_CASE("constants are computed where both machines compute alike, and literals mean one float") {
+  CHECK(body_of("const float x = 0.1 * 3.0; float y = x;") == "floatx=exact_multiply(0.100000001,3.0);floaty=x;");
+  CHECK(body_of("const float x = 0.1; const float y = x;") == "constfloatx=0.100000001;constfloaty=x;");
+  CHECK(body_of("const float x = 1.0, y = 1.0 / 3.0; const float z = x;") ==
+        "floatx=1.0,y=exact_divide(1.0,3.0);floatz=x;");
+  CHECK(body_of("float x = a.x + 0.0;") == "floatx=exact_add(a.x,exact_zero);");
+  CHECK(body_of("vec3 v = vec3(0);") == "vec3v=vec3(exact_zero);");
+  CHECK(body_of("mat3 x = mat3(2.0);") == "mat3x=exact_diagonal_3(2.0,exact_zero);");
+}
+
+TEST_CASE("the scope of constants leaves the rest alone") {
+  CHECK(body_of("float x = a.x * (0.1 * 3.0) + 0.0;", ExactScope::constants) ==
+        "floatx=a.x*(exact_multiply(0.1,3.0))+0.0;");
+  CHECK(body_of("float x = sin(0.5) * sin(a.x);", ExactScope::constants) == "floatx=exact_sin(0.5)*sin(a.x);");
+}
+
+TEST_CASE("whatever arithmetic GLSL allows is brought into the exact dialect") {
+  for (const std::string body : {
+           "color = vec4(mix(a, b, 0.5), dot(a, b));",
+           "color = vec4(normalize(a), length(b));",
+           "color.xyz = cross(a, b) + reflect(a, b) + refract(a, b, 0.7) + faceforward(a, b, a);",
+           "color = vec4(fract(a), mod(a.x, 0.3));",
+           "color = vec4(sin(a), cos(a.x)); color.x = tan(a.y) + asin(b.x) + acos(b.y) + atan(a.z) + atan(a.x, b.x);",
+           "color = vec4(pow(a, b), exp(a.x)) + exp2(a.x) + log(b.x) + log2(b.y) + inversesqrt(a.x);",
+           "color = vec4(sinh(a), cosh(a.x)) * tanh(b.x);",
+           "color = vec4(round(a), sign(b.x)); color.xy += roundEven(a.xy); color.x = smoothstep(0.0, 1.0, a.x);",
+           "color.xyz = smoothstep(vec3(0.0), vec3(1.0), a) + smoothstep(0.1, 0.9, b) + clamp(a, 0.0, 1.0);",
+           "color.xyz = max(a, 0.0) + min(a, b) + step(0.5, a) + step(a, b) + clamp(a, b, vec3(1)) + sqrt(a);",
+           "color.xyz = radians(a) + degrees(b) + fma(a, b, a) + fwidth(a);",
+           "color.xyz = m * a; color = m4 * vec4(a, 1.0); color.xyz += n * a.xy; color.xy += a * n;",
+           "mat3 p = m * m; p *= 2.0; p += m; p = p / 2.0 - m; p = matrixCompMult(p, m); color.xyz = p[0];",
+           "mat3 p = inverse(m) * determinant(m); color.xyz = p[k]; color.x += determinant(m4) + inverse(m4)[1].y;",
+           "mat3 p = outerProduct(a, b); mat3x2 q = transpose(n); color.xy = q * a; color.xyz += (n * q)[k];",
+           "if (a.x * b.x > 0.5 && a.y + 1.0 != b.y) color.x = twice(a.x * 2.0);",
+           "for (float t = 0.0; t < 1.0; t += 0.25) color.x += t * a.x;",
+           "float x = a.x; while (x * x < 9.0) { x = x * 1.5 + 0.5; } color.x = x > 2 ? x * 2 : 1;",
+           "float x[3] = float[](a.x * 2.0, 0.0, 1); x[k] += a.y; color.x = x[1] + x[2];",
+           "Light l = Light(a * b, 1.0 - b.x); l.power *= 2.0; color = vec4(l.colour * l.power, 1);",
+           "vec3 v = a; v[k] = b.x; v[k] *= 3.0; color.xyz = v; color[k] = HALF + THIRD;",
+           "bvec3 n3 = isnan(a); color.x = isinf(b.x) || n3.x ? 1.0 : 0.0;",
+           "int i = int(a.x * 4.0); switch (int(b.x * 2.0)) { case 0: i += 2; break; default: i = 1; } color.x = i;",
+           "color = vec4(a.x * 2, 3 * a.y, a.z / 2, 1 - b.x); color -= 0.5; --color.x; color.y++;",
+       }) {
+    CAPTURE(body);
+    std::string left;
+    CHECK_NOTHROW(left = left_of(body));
+    CHECK(left == "");
+  }
+}
+
+TEST_CASE("what cannot be made exact is named where the author wrote it") {
+  CHECK(left_of("color = texture(map, a.xy);").find("sample.frag:10: texture:") == 0);
+  CHECK(left_of("uint p = packHalf2x16(a.xy); color.x = float(p);").find("sample.frag:10: packHalf2x16:") == 0);
+  CHECK(left_of("vec3 v = a; fill(v[k]); color.xyz = v;").find("sample.frag:10: []:") == 0);
+  CHECK(left_of("color.x = acosh(a.x);").find("sample.frag:10: acosh:") == 0);
+  CHECK(left_of("color.x = float(k % 3);").find("sample.frag:10: %:") == 0);
+  CHECK(left_of("color.x = a.x + 1e-42;").find("sample.frag:10: 1e-42:") == 0);
+}
+
+TEST_CASE("GLSL ES and older versions are rewritten as GLSL 4.50") {
+  const ShaderSource es = resolve_shader("es",
+                                         "#version 300 es\nprecision highp float;\nin vec2 uv;\nout vec4 color;\nvoid "
+                                         "main() { color = vec4(sin(uv) * 2.0, 0.0, 1.0); }\n",
+                                         "es.frag");
+  const ExactShader exact = make_exact(es);
+  CHECK(exact.left.empty());
+  CHECK(!exact.source.es);
+  CHECK(exact.source.text.find("#line 2 \"es.frag\"") != std::string::npos);
+}
+
+TEST_CASE("a shader that includes exact functions itself gets each once") {
+  CHECK(left_of("color.x = exact_dot(a, b) + exact_length(a);", "#include \"exact/length.glsl\"\n") == "");
+}
+
+}  // namespace twinshade

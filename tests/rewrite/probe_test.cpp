@@ -1,0 +1,95 @@
+// Shaders with probes are valid, number the same statements whether all or one are told of, and keep their lines.
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "cpu_shaders/rewrite/frag_coord.h"
+#include "cpu_shaders/rewrite/make_exact.h"
+#include "cpu_shaders/rewrite/probe.h"
+#include "cpu_shaders/translate/compile_glsl.h"
+
+namespace twinshade {
+namespace {
+
+const ShaderSource& everything() {
+  static const ShaderSource source = resolve_shader(
+      "everything",
+      "in vec3 a; flat in int k; uniform mat3 m; out vec4 color;\n"                                          // 1
+      "const float K = 0.1 * 3.0; float g = K;\n"                                                            // 2
+      "struct S { vec3 v; float w[2]; };\n"                                                                  // 3
+      "S make(vec3 v) {\n"                                                                                   // 4
+      "  return S(v * 2.0, float[](v.x, v.y * 3.0));\n"                                                      // 5
+      "}\n"                                                                                                  // 6
+      "void fill(out float x, inout vec2 y) { x = a.x * 2.0; y += x; }\n"                                    // 7
+      "int count(float x) { return int(x * 4.0); }\n"                                                        // 8
+      "void main() {\n"                                                                                      // 9
+      "  float x, w[3] = float[](a.x, a.y, a.x * a.y); vec2 y = a.xy;\n"                                     // 10
+      "  fill(x, y);\n"                                                                                      // 11
+      "  S s = make(a); s.v.xy *= y; s.w[k & 1] = x;\n"                                                      // 12
+      "  for (float t = 0.0; t < a.z; t += 0.25) x += t;\n"                                                  // 13
+      "  for (int i = 0; i < 3; ++i) for (int j = 0; j < i; ++j) if (w[j] > x) x += w[i]; else x -= 1.0;\n"  // 14
+      "  while (x * x > 9.0) { x *= 0.5; if (x < 0.1) break; }\n"                                            // 15
+      "  do { x += 1.0; } while (x < 2.0 * a.y);\n"                                                          // 16
+      "  switch (count(x)) { case 0: x = 1.0; break; default: x = a.z; }\n"                                  // 17
+      "  mat3 p = m * 2.0; p[1] = a;\n"                                                                      // 18
+      "  if (a.x > 9.0) discard;\n"                                                                          // 19
+      "  vec4 sum =\n"                                                                                       // 20
+      "      vec4(s.v * p,\n"                                                                                // 21
+      "           x);\n"                                                                                     // 22
+      "  color = sum + gl_FragCoord * g;\n"                                                                  // 23
+      "}\n",
+      "everything.frag");
+  return source;
+}
+
+bool names(const ProbedShader& shader, int line, const std::string& what) {
+  for (const ProbedStatement& statement : shader.statements)
+    if (statement.line == line && statement.what == what) return true;
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("every kind of statement is probed, at its line") {
+  const ProbedShader shader = add_probes(everything());
+  CHECK_NOTHROW(compile_glsl(shader.source));
+  const std::vector<std::pair<int, std::string>> expected = {
+      {2, "K"},          {5, "result of make"}, {7, "x"},          {8, "result of count"}, {10, "w"},
+      {10, "y"},         {11, "x, y"},          {12, "s.v.xy"},    {13, "t, t"},           {13, "condition"},
+      {14, "condition"}, {15, "condition"},     {16, "condition"}, {17, "condition"},      {18, "p"},
+      {20, "sum"},       {23, "color"}};
+  for (const auto& statement : expected) {
+    CAPTURE(statement.first);
+    CAPTURE(statement.second);
+    CHECK(names(shader, statement.first, statement.second));
+  }
+  for (const ProbedStatement& statement : shader.statements)
+    if (statement.what == "sum") CHECK(statement.last_line == 22);
+}
+
+TEST_CASE("one probe at a time: the same numbers, valid GLSL") {
+  const ProbedShader all = add_probes(everything());
+  for (std::size_t k = 0; k < all.statements.size(); ++k) {
+    const ProbedShader one = add_probes(everything(), k);
+    CAPTURE(all.statements[k].what);
+    CHECK(one.statements.size() == all.statements.size());
+    CHECK_NOTHROW(compile_glsl(one.source));
+  }
+}
+
+TEST_CASE("probes go into shaders that were made exact, and into GLSL ES") {
+  CHECK_NOTHROW(compile_glsl(add_probes(make_exact(everything()).source).source));
+  const ShaderSource es = resolve_shader("es",
+                                         "#version 300 es\nprecision highp float;\nin vec2 uv;\nout vec4 color;\nvoid "
+                                         "main() { float x = uv.x * uv.y; color = vec4(x); }\n",
+                                         "es.frag");
+  CHECK_NOTHROW(compile_glsl(add_probes(es).source));
+}
+
+TEST_CASE("gl_FragCoord becomes an input") {
+  const ShaderSource moved = frag_coord_as_input(everything());
+  CHECK_NOTHROW(compile_glsl(moved));
+  CHECK(moved.text.find("gl_FragCoord") == std::string::npos);
+}
+
+}  // namespace twinshade

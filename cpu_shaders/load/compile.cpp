@@ -13,6 +13,7 @@
 #include "base/hash.h"
 #include "cpu_shaders/load/load.h"
 #include "cpu_shaders/load/runtime_files.h"
+#include "cpu_shaders/load/source_index.h"
 
 namespace twinshade {
 namespace {
@@ -60,23 +61,29 @@ void build(const std::string& text, const Compiler& compiler, const CompileOptio
 
 }  // namespace
 
-std::string compile_shader(const std::string& cpp, const CompileOptions& options) {
-  // Definitions that differ between shaders are text: the precompiled runtime, which does not look at them, serves all.
-  const std::string text =
-      fmt::format("#define TWINSHADE_NUMBERS {}\n#define TWINSHADE_SHARED_OBJECT 1\n#line 1\n{}", options.numbers, cpp);
-  const Compiler compiler = find_compiler(options.compiler);
+std::string object_key(std::string_view content, const CompileOptions& options) {
+  const std::string flags = fmt::format("{}", fmt::join(flags_of(options), " "));
   Sha256 hash;
-  for (const std::string& part :
-       {text, embedded_runtime_hash(), compiler.identity, fmt::format("{}", fmt::join(flags_of(options), " "))}) {
+  for (const std::string& part : {std::to_string(kAbiVersion), embedded_runtime_hash(),
+                                  find_compiler(options.compiler).identity, flags, std::to_string(options.numbers)}) {
     hash.add(part);
     hash.add("\0", 1);
   }
-  const std::string object = cache_folder() + "/shader-" + hash.hex() + ".so";
+  hash.add(content);
+  return hash.hex();
+}
+
+std::string compile_shader(const std::string& cpp, const CompileOptions& options) {
+  const std::string object = cache_folder() + "/shader-" + object_key(cpp, options) + ".so";
   if (is_sealed(object)) {
     touch_cached(object);
     return object;
   }
   cache_size_limit();  // a size that is no size is an error before minutes of work, not after
+  // Definitions that differ between shaders are text: the precompiled runtime, which does not look at them, serves all.
+  const std::string text =
+      fmt::format("#define TWINSHADE_NUMBERS {}\n#define TWINSHADE_SHARED_OBJECT 1\n#line 1\n{}", options.numbers, cpp);
+  const Compiler compiler = find_compiler(options.compiler);
   write_file_with(object, [&](const std::string& temporary) { build(text, compiler, options, temporary); });
   trim_cache();
   return object;

@@ -20,6 +20,14 @@ const ShaderModule& load_module(const ShaderSource& source, Number number, std::
 // The built-in module of a source, null where it is not built in.
 const ShaderModule* find_builtin_module(const ShaderSource& source);
 
+// The code that load_module looks for: lanes on the instruction set whose registers hold them, as far as `isa` allows.
+struct CodeTarget {
+  Isa isa = Isa::baseline;
+  Number number = Number::lanes4;
+};
+// UserError for an instruction set that the machine lacks.
+CodeTarget code_target(Number number, std::optional<Isa> isa = {});
+
 struct CompileOptions {
   Isa isa = Isa::baseline;
   std::uint32_t numbers = 1;  // bit n: enum Number's n-th

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "cpu_shaders/runtime/machine.h"
+#include "cpu_shaders/machine.h"
 
 namespace twinshade {
 namespace {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <mutex>
 #include <span>
 
 #include "base/cache.h"
@@ -69,6 +70,8 @@ std::string unpack_runtime() {
 
 PreparedRuntime prepare_runtime(const std::string& runtime, const Compiler& compiler,
                                 const std::vector<std::string>& flags) {
+  static std::mutex mutex;  // threads wait for one instead of all making it
+  const std::lock_guard lock(mutex);
   const std::string key = sha256_hex(fmt::format("{}\n{}", compiler.identity, fmt::join(flags, " "))).substr(0, 16);
   const fs::path folder = fs::path(runtime) / ("prepared-" + key);
   const PreparedRuntime prepared{(folder / "runtime.h").string(), (folder / "portable_math.o").string()};

@@ -30,6 +30,9 @@ struct File {
   bool builtin = false;
 };
 
+// "builtin:driver" among the include folders is shaders/driver in the binary.
+constexpr std::string_view kBuiltinFolder = "builtin:";
+
 std::string unix_lines(std::string text) {
   if (text.compare(0, 3, "\xef\xbb\xbf") == 0) text.erase(0, 3);
   text.erase(std::remove(text.begin(), text.end(), '\r'), text.end());
@@ -177,6 +180,11 @@ class Resolver {
       looked = from.folder.empty() ? "." : from.folder;
     }
     for (const std::string& folder : include_folders_) {
+      if (folder.rfind(kBuiltinFolder, 0) == 0) {
+        const std::string name = folder.substr(kBuiltinFolder.size()) + "/" + wanted;
+        if (const auto text = builtin_shader(name)) return builtin_file(name, *text);
+        continue;
+      }
       if (auto file = open_file(fs::path(folder) / wanted)) return *file;
       looked += ", " + folder;
     }

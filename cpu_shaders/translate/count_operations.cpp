@@ -5,20 +5,22 @@
 #include "base/error.h"
 #include "cpu_shaders/translate/compile_glsl.h"
 #include "cpu_shaders/translate/function_info.h"
+#include "cpu_shaders/translate/trip_count.h"
 
 namespace twinshade {
 namespace {
 
 using namespace spirv;
 
-void add(OperationCount& to, const OperationCount& from) {
-  to.additions += from.additions;
-  to.multiplications += from.multiplications;
-  to.divisions += from.divisions;
-  to.square_roots += from.square_roots;
-  to.selections += from.selections;
-  to.others += from.others;
-  to.integers += from.integers;
+void add(OperationCount& to, const OperationCount& from, int times = 1) {
+  to.additions += times * from.additions;
+  to.multiplications += times * from.multiplications;
+  to.divisions += times * from.divisions;
+  to.square_roots += times * from.square_roots;
+  to.selections += times * from.selections;
+  to.others += times * from.others;
+  to.integers += times * from.integers;
+  to.texels += times * from.texels;
   to.loops = to.loops || from.loops;
 }
 
@@ -30,27 +32,44 @@ class Counter {
     const auto found = counts_.find(id);
     if (found != counts_.end()) return found->second;
     const FunctionInfo& info = program_.info(id);
-    return counts_[id] = info.function->name == free_ ? OperationCount() : list(info.body.list);
+    if (info.function->name == free_) return counts_[id];
+    StoredConstants stored;
+    const OperationCount count = list(info, info.body.list, stored);
+    return counts_[id] = count;
   }
 
  private:
-  OperationCount list(const List& statements) {
+  // stored: what is known of variables at the start, then at the end.
+  OperationCount list(const FunctionInfo& info, const List& statements, StoredConstants& stored) {
     OperationCount count;
     for (const auto& s : statements) {
-      for (const Instruction& i : s->code) instruction(i, count);
-      OperationCount dearest = list(s->then_list);
-      const auto compare = [&](OperationCount arm) {
+      for (const Instruction& i : s->code) {
+        instruction(i, count);
+        remember(i, stored);
+      }
+      OperationCount dearest = list(info, s->then_list, stored);
+      const auto compare = [&](const OperationCount& arm) {
         if (arm.total() > dearest.total()) dearest = arm;
       };
-      compare(list(s->else_list));
-      for (const Case& c : s->cases) compare(list(c.body));
+      compare(list(info, s->else_list, stored));
+      for (const Case& c : s->cases) compare(list(info, c.body, stored));
       add(count, dearest);
       if (s->shape != Shape::loop) continue;
-      add(count, list(s->body));
-      add(count, list(s->continuing));
-      count.loops = true;
+      const auto turns = trip_count(program_.module, info, *s, stored);
+      OperationCount turn = list(info, s->body, stored);
+      add(turn, list(info, s->continuing, stored));
+      turn.loops = turn.loops || !turns;
+      add(count, turn, int(turns.value_or(1)));
     }
     return count;
+  }
+
+  void remember(const Instruction& i, StoredConstants& stored) const {
+    if (i.op != spv::OpStore) return;
+    if (program_.module.is_constant(i.operands[1]))
+      stored[i.operands[0]] = i.operands[1];
+    else
+      stored.erase(i.operands[0]);
   }
 
   bool is_real(Id type) const { return program_.module.scalar_kind(type) == Kind::real; }
@@ -108,6 +127,13 @@ class Counter {
       case spv::OpFMod:
       case spv::OpFRem:
         count.others += n;
+        return;
+      case spv::OpImageFetch:
+        ++count.texels;
+        return;
+      case spv::OpImageSampleImplicitLod:
+      case spv::OpImageSampleExplicitLod:
+        count.texels += 4;
         return;
       case spv::OpExtInst:
         extended(i.operands[1], is_real(i.type), n, count);

@@ -16,7 +16,8 @@ struct OperationCount {
   int selections = 0;  // comparisons, selections, minimum, maximum, absolute value, negation, rounding
   int others = 0;      // transcendental built-ins and the like, one each
   int integers = 0;    // operations on integers and booleans: not in the total
-  bool loops = false;  // a loop is counted as if it ran once
+  int texels = 0;      // fetched; four where texture() filters: not in the total
+  bool loops = false;  // a loop whose number of turns is not constant is counted as if it ran once
 
   int total() const { return additions + multiplications + divisions + square_roots + selections + others; }
 };

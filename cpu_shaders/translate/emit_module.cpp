@@ -284,7 +284,10 @@ class ModuleEmitter {
           out.line(g.name + " = " + table_type(g.type) + "(" + local + ");");
           out.close("}");
         } else {
-          load_uniform(Layout(module_, g.in_block), memory, g.type, g.name, g.offset, "", {}, 0);
+          // The loops over arrays count with i, i1 ...: a uniform of that name is not theirs.
+          const bool like_a_counter = std::regex_match(g.name, std::regex("i[0-9]*"));
+          load_uniform(Layout(module_, g.in_block), memory, g.type, (like_a_counter ? "this->" : "") + g.name, g.offset,
+                       "", {}, 0);
         }
       }
     }

@@ -298,6 +298,34 @@ class Describer {
     reflection_.uniforms.push_back(u);
   }
 
+  // Of the uniform block that was described last.
+  void block_leaves(const Layout& layout, Id type, const std::string& path, std::uint32_t offset,
+                    const MatrixLayout& matrix, const std::string& instance) {
+    const Type& t = module_.type(type);
+    if (t.kind == Kind::structure) {
+      for (std::uint32_t k = 0; k < t.members.size(); ++k)
+        block_leaves(layout, t.members[k], path + "." + module_.member_names.at({type, k}),
+                     offset + layout.member_offset(type, k), layout.member_matrix(type, k), instance);
+      return;
+    }
+    ReflectedBlockMember member;
+    ReflectedUniform& u = member.value;
+    if (!describe(type, u)) {  // arrays of structs and of arrays
+      for (std::uint32_t k = 0; k < t.count; ++k)
+        block_leaves(layout, t.element, path + "[" + std::to_string(k) + "]", offset + k * layout.array_stride(type),
+                     matrix, instance);
+      return;
+    }
+    u.name = path;
+    u.offset = offset;
+    u.array_stride = u.array_length != 0 ? layout.array_stride(type) : 0;
+    u.matrix_stride = u.columns > 1 ? matrix.stride : 0;
+    member.row_major = u.columns > 1 && matrix.row_major;
+    member.resource = static_cast<std::uint32_t>(reflection_.resources.size() - 1);
+    member.instance = instance;
+    reflection_.block_members.push_back(member);
+  }
+
   void block(const Variable& v) {
     const Id block_type = module_.innermost(v.type);
     const std::string name = module_.name(block_type);
@@ -312,6 +340,13 @@ class Describer {
       r.minimum_size = layout.size(block_type);
       r.read_only = !storage || read_only(v, block_type);
       reflection_.resources.push_back(r);
+    }
+    if (!storage && block_type == v.type) {
+      const std::string prefix = module_.name(v.id).empty() ? "" : name + ".";
+      const Type& members = module_.type(v.type);
+      for (std::uint32_t k = 0; k < members.members.size(); ++k)
+        block_leaves(layout, members.members[k], prefix + module_.member_names.at({v.type, k}),
+                     layout.member_offset(v.type, k), layout.member_matrix(v.type, k), module_.name(v.id));
     }
     const bool loaded = block_type == v.type && !storage && r.minimum_size <= kLargestLoadedBlock;
     const std::string instance = module_.name(v.id);

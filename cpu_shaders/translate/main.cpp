@@ -4,13 +4,19 @@
 //     fragment shader with that coefficient storage), basis_values, basis_irradiance, map_taps or map_direction (for
 //     the host).
 //   twinshade-translate FILE.frag [-I FOLDER]... [--name IDENTIFIER] [--readable] -o OUT.cpp
+//                       [--header FOLDER --isas ISA,...] [--depfile OUT.d]
+//     --header: IDENTIFIER.h and IDENTIFIER_calls.cpp, typed C++ (cpu_shaders/package/cpp_header.h). --depfile: the
+//     files that were read, as make and ninja want to know them.
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
 #include "base/file.h"
+#include "cpu_shaders/package/cpp_header.h"
+#include "cpu_shaders/translate/cpp_keywords.h"
 #include "cpu_shaders/translate/translate.h"
 #include "lighting/registry.h"
 #include "lighting/sphere_maps.h"
@@ -21,13 +27,27 @@ namespace {
 
 constexpr const char* kUsage =
     "usage: twinshade-translate NAME KIND IDENTIFIER OUT.cpp\n"
-    "       twinshade-translate FILE.frag [-I FOLDER]... [--name IDENTIFIER] [--readable] -o OUT.cpp";
+    "       twinshade-translate FILE.frag [-I FOLDER]... [--name IDENTIFIER] [--readable] -o OUT.cpp\n"
+    "                           [--header FOLDER --isas ISA,...] [--depfile OUT.d]";
 
 struct Job {
   ShaderSource source;
   TranslateOptions options;
   std::string output;
+  std::string header_folder, depfile;
+  std::vector<std::string> isas{"baseline"};
 };
+
+std::vector<std::string> split(const std::string& list) {
+  std::vector<std::string> parts{""};
+  for (char c : list) {
+    if (c == ',')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
 
 ShaderSource builtin_source(const std::string& name, const std::string& kind) {
   if (kind == "map_taps") return sphere_map_taps_source(find_sphere_map(name));
@@ -58,6 +78,12 @@ Job job_of(const std::vector<std::string>& arguments) {
       job.options.identifier = value();
     else if (arguments[k] == "--readable")
       job.options.readable = true;
+    else if (arguments[k] == "--header")
+      job.header_folder = value();
+    else if (arguments[k] == "--isas")
+      job.isas = split(value());
+    else if (arguments[k] == "--depfile")
+      job.depfile = value();
     else
       names.push_back(arguments[k]);
   }
@@ -73,7 +99,8 @@ Job job_of(const std::vector<std::string>& arguments) {
   return job;
 }
 
-// An unchanged file keeps its time, so that a changed shader recompiles only itself.
+// An unchanged file keeps its time, so that a changed shader recompiles only itself. Not with a depfile: the build tool
+// then compares the times itself.
 bool has_content(const std::string& path, const std::string& content) {
   try {
     return read_file(path) == content;
@@ -82,13 +109,44 @@ bool has_content(const std::string& path, const std::string& content) {
   }
 }
 
+void write_typed_cpp(const Job& job, const Translation& translation) {
+  if (spirv::is_cpp_keyword(translation.identifier))
+    throw UserError(job.source.files[0] + ": " + translation.identifier + " cannot be a C++ namespace; give a NAME");
+  const CppHeader typed = cpp_header(translation, job.source, job.isas);
+  const std::filesystem::path folder(job.header_folder);
+  write_file((folder / (translation.identifier + ".h")).string(), typed.header);
+  write_file((folder / (translation.identifier + "_calls.cpp")).string(), typed.calls);
+}
+
+void append_escaped(std::string& text, const std::string& path) {
+  for (char c : path) {
+    if (c == ' ' || c == '#') text += '\\';
+    if (c == '$') text += '$';
+    text += c;
+  }
+}
+
+std::string depfile_of(const Job& job) {
+  std::string text;
+  append_escaped(text, job.output);
+  text += ':';
+  for (const std::string& file : job.source.files) {
+    if (!std::filesystem::exists(file)) continue;  // it is in this binary
+    text += ' ';
+    append_escaped(text, file);
+  }
+  return text + '\n';
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
   try {
     const Job job = job_of({arguments + 1, arguments + count});
-    const std::string cpp = translate(job.source, job.options).cpp;
-    if (!has_content(job.output, cpp)) write_file(job.output, cpp);
+    const Translation translation = translate(job.source, job.options);
+    if (!job.header_folder.empty()) write_typed_cpp(job, translation);
+    if (!job.depfile.empty()) write_file(job.depfile, depfile_of(job));
+    if (!job.depfile.empty() || !has_content(job.output, translation.cpp)) write_file(job.output, translation.cpp);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "twinshade-translate: %s\n", error.what());
     return 2;

@@ -1,41 +1,153 @@
 #include "cpu_shaders/translate/names.h"
 
+#include "cpu_shaders/translate/cpp_keywords.h"
+
 namespace twinshade::spirv {
 namespace {
 
-const std::set<std::string>& reserved() {
+const std::set<std::string>& keywords() {
   static const std::set<std::string> words = {
-      // C++
-      "alignas", "alignof", "and", "and_eq", "asm", "auto", "bitand", "bitor", "bool", "break", "case", "catch", "char",
-      "char8_t", "char16_t", "char32_t", "class", "compl", "concept", "const", "consteval", "constexpr", "constinit",
-      "const_cast", "continue", "co_await", "co_return", "co_yield", "decltype", "default", "delete", "do", "double",
-      "dynamic_cast", "else", "enum", "explicit", "export", "extern", "false", "float", "for", "friend", "goto", "if",
-      "inline", "int", "long", "mutable", "namespace", "new", "noexcept", "not", "not_eq", "nullptr", "operator", "or",
-      "or_eq", "private", "protected", "public", "register", "reinterpret_cast", "requires", "return", "short",
-      "signed", "sizeof", "static", "static_assert", "static_cast", "struct", "switch", "template", "this",
-      "thread_local", "throw", "true", "try", "typedef", "typeid", "typename", "union", "unsigned", "using", "virtual",
-      "void", "volatile", "wchar_t", "while", "xor", "xor_eq", "final", "override", "std", "main", "NULL", "assert",
-      // the runtime and the frame of the generated file
-      "F", "I", "U", "B", "UF", "UI", "UU", "UB", "N", "K", "V", "Base", "Shader", "Varying", "Uniform", "twinshade",
-      "glsl", "served", "vec", "mat", "arr", "table", "vec2", "vec3", "vec4", "ivec2", "ivec3", "ivec4", "uvec2",
-      "uvec3", "uvec4", "bvec2", "bvec3", "bvec4", "mat2", "mat3", "mat4", "sampler2D", "sampler2DArray", "samplerCube",
-      "select", "assign", "any", "all", "none", "lookup", "store_lookup", "update", "leave", "swizzle", "load", "store",
-      "to_float", "to_int", "to_uint", "to_bool", "float_as_int", "float_as_uint", "int_as_float", "uint_as_float",
-      "constant", "input", "output", "frag_coord", "front_facing", "primitive_id", "first_", "data_", "call_", "real",
-      "live", "frag_depth", "kept", "begin", "finish", "run", "texture_2d", "texture_2d_array", "texture_cube",
-      "buffer", "uniforms", "data", "call", "first", "memory", "array_length", "map", "Lane", "Vec", "Mat", "Arr",
-      "Lanes", "Scalar32", "Scalar64", "Quad32", "Quad64", "Plain", "Simd", "SimdMask", "BufferView", "TextureView",
-      "ShaderData", "ShadeCall", "ShaderBase", "ShaderEntry", "ShaderModule", "number", "detail", "registers", "bundle",
-      "portable"};
+      "alignas",     "alignof",   "and",        "and_eq",    "asm",      "auto",         "bitand",
+      "bitor",       "bool",      "break",      "case",      "catch",    "char",         "char8_t",
+      "char16_t",    "char32_t",  "class",      "compl",     "concept",  "const",        "consteval",
+      "constexpr",   "constinit", "const_cast", "continue",  "co_await", "co_return",    "co_yield",
+      "decltype",    "default",   "delete",     "do",        "double",   "dynamic_cast", "else",
+      "enum",        "explicit",  "export",     "extern",    "false",    "float",        "for",
+      "friend",      "goto",      "if",         "inline",    "int",      "long",         "mutable",
+      "namespace",   "new",       "noexcept",   "not",       "not_eq",   "nullptr",      "operator",
+      "or",          "or_eq",     "private",    "protected", "public",   "register",     "reinterpret_cast",
+      "requires",    "return",    "short",      "signed",    "sizeof",   "static",       "static_assert",
+      "static_cast", "struct",    "switch",     "template",  "this",     "thread_local", "throw",
+      "true",        "try",       "typedef",    "typeid",    "typename", "union",        "unsigned",
+      "using",       "virtual",   "void",       "volatile",  "wchar_t",  "while",        "xor",
+      "xor_eq",      "final",     "override",   "std",       "main",     "NULL",         "assert"};
+  return words;
+}
+
+// The runtime and the frame of the generated file.
+const std::set<std::string>& reserved() {
+  static const std::set<std::string> words = {"F",
+                                              "I",
+                                              "U",
+                                              "B",
+                                              "UF",
+                                              "UI",
+                                              "UU",
+                                              "UB",
+                                              "N",
+                                              "K",
+                                              "V",
+                                              "Base",
+                                              "Shader",
+                                              "Varying",
+                                              "Uniform",
+                                              "twinshade",
+                                              "glsl",
+                                              "served",
+                                              "vec",
+                                              "mat",
+                                              "arr",
+                                              "table",
+                                              "vec2",
+                                              "vec3",
+                                              "vec4",
+                                              "ivec2",
+                                              "ivec3",
+                                              "ivec4",
+                                              "uvec2",
+                                              "uvec3",
+                                              "uvec4",
+                                              "bvec2",
+                                              "bvec3",
+                                              "bvec4",
+                                              "mat2",
+                                              "mat3",
+                                              "mat4",
+                                              "sampler2D",
+                                              "sampler2DArray",
+                                              "samplerCube",
+                                              "select",
+                                              "assign",
+                                              "any",
+                                              "all",
+                                              "none",
+                                              "lookup",
+                                              "store_lookup",
+                                              "update",
+                                              "leave",
+                                              "swizzle",
+                                              "load",
+                                              "store",
+                                              "to_float",
+                                              "to_int",
+                                              "to_uint",
+                                              "to_bool",
+                                              "float_as_int",
+                                              "float_as_uint",
+                                              "int_as_float",
+                                              "uint_as_float",
+                                              "constant",
+                                              "input",
+                                              "output",
+                                              "frag_coord",
+                                              "front_facing",
+                                              "primitive_id",
+                                              "first_",
+                                              "data_",
+                                              "call_",
+                                              "real",
+                                              "live",
+                                              "frag_depth",
+                                              "kept",
+                                              "begin",
+                                              "finish",
+                                              "run",
+                                              "texture_2d",
+                                              "texture_2d_array",
+                                              "texture_cube",
+                                              "buffer",
+                                              "uniforms",
+                                              "data",
+                                              "call",
+                                              "first",
+                                              "memory",
+                                              "array_length",
+                                              "map",
+                                              "Lane",
+                                              "Vec",
+                                              "Mat",
+                                              "Arr",
+                                              "Lanes",
+                                              "Scalar32",
+                                              "Scalar64",
+                                              "Quad32",
+                                              "Quad64",
+                                              "Plain",
+                                              "Simd",
+                                              "SimdMask",
+                                              "BufferView",
+                                              "TextureView",
+                                              "ShaderData",
+                                              "ShadeCall",
+                                              "ShaderBase",
+                                              "ShaderEntry",
+                                              "ShaderModule",
+                                              "number",
+                                              "detail",
+                                              "registers",
+                                              "bundle",
+                                              "portable"};
   return words;
 }
 
 }  // namespace
 
+bool is_cpp_keyword(const std::string& name) { return keywords().count(name) != 0; }
+
 NameTable::NameTable() { open(); }
 
 bool NameTable::taken(const std::string& name) const {
-  if (reserved().count(name)) return true;
+  if (is_cpp_keyword(name) || reserved().count(name)) return true;
   // Aliases of uniform types, the runtime's macros.
   if ((name.rfind("uniform_", 0) == 0 || name.rfind("TWINSHADE_", 0) == 0) && name.back() != '_') return true;
   for (const auto& scope : scopes_)

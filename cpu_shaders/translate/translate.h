@@ -16,7 +16,8 @@ struct TranslateOptions {
   // Readable: each GLSL line as a comment above its C++. Otherwise #line directives, so that debuggers step through the
   // GLSL.
   bool readable = false;
-  // For tests that must notice a wrong translation: every SPIR-V instruction `first` is translated as if it were `second`.
+  // For tests that must notice a wrong translation: every SPIR-V instruction `first` is translated as if it were
+  // `second`.
   std::optional<std::pair<std::uint32_t, std::uint32_t>> planted_bug;
 };
 
@@ -37,6 +38,14 @@ struct ReflectedUniform {
   std::uint32_t array_length = 0, offset = 0, array_stride = 0, matrix_stride = 0;
   std::vector<std::uint32_t> initial;  // words of the initialiser; empty: none
 };
+// A leaf of a uniform block, by the name that OpenGL gives it: "colour", or "Light.colour" (the block's name) where the
+// block has an instance name.
+struct ReflectedBlockMember {
+  ReflectedUniform value;      // offset: from the start of the block
+  std::uint32_t resource = 0;  // index into Reflection::resources
+  std::string instance;        // of the block; may be empty
+  bool row_major = false;      // matrices: matrix_stride is then from row to row
+};
 struct ReflectedResource {
   std::string name;
   ResourceKind kind = ResourceKind::sampler_2d;
@@ -49,6 +58,7 @@ struct Reflection {
   std::vector<ReflectedVariable> inputs, outputs;
   std::vector<ReflectedUniform> uniforms;
   std::vector<ReflectedResource> resources;
+  std::vector<ReflectedBlockMember> block_members;  // of uniform blocks
   std::uint32_t input_components = 0, output_components = 0, uniform_bytes = 0, texture_count = 0, buffer_count = 0;
   bool discards = false, writes_depth = false, has_side_effects = false, uses_derivatives = false,
        uses_frag_coord = false, uses_front_facing = false, uses_primitive_id = false;

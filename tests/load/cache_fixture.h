@@ -32,7 +32,7 @@ inline const TestCache& shared_cache() {
   static const TestCache cache;
   setenv("TWINSHADE_CACHE", cache.folder.c_str(), 1);
   for (const auto& entry : std::filesystem::directory_iterator(cache.folder))
-    if (entry.path().extension() == ".so") std::filesystem::remove(entry.path());
+    if (entry.path().filename().string().starts_with("shader-")) std::filesystem::remove(entry.path());
   return cache;
 }
 

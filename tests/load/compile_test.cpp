@@ -12,7 +12,8 @@
 #include "cpu_shaders/load/compiler.h"
 #include "cpu_shaders/load/host_eval.h"
 #include "cpu_shaders/load/load.h"
-#include "cpu_shaders/runtime/machine.h"
+#include "cpu_shaders/load/source_index.h"
+#include "cpu_shaders/machine.h"
 #include "cpu_shaders/translate/translate.h"
 #include "tests/load/cache_fixture.h"
 
@@ -93,6 +94,26 @@ TEST_CASE(
   write_file(precompiled + ".sha256", sha256_hex(nonsense));
   CHECK(run(compile("r = exp(a.y);"), 1, 0, 0) == 1);
   CHECK(read_or_nothing(precompiled) != nonsense);
+}
+
+TEST_CASE("a source that was compiled before is found without translating it, unless its object is damaged or gone") {
+  shared_cache();
+  const CompileOptions options{Isa::baseline, 1u << int(Number::scalar), 2, {}};
+  const ShaderSource source = small_shader("r = a.x + 0.5;");
+  const IndexedSource indexed(source, options);
+  CHECK(indexed.find().empty());
+  const std::string object = compile("r = a.x + 0.5;");
+  indexed.remember(object);
+  CHECK(IndexedSource(source, options).find() == object);
+  CHECK(IndexedSource(small_shader("r = a.x + 0.25;"), options).find().empty());
+  CHECK(IndexedSource(source, CompileOptions{Isa::baseline, 1u << int(Number::scalar), 1, {}}).find().empty());
+  ShaderSource renamed = source;
+  renamed.name = "another";
+  CHECK(IndexedSource(renamed, options).find().empty());
+  truncate_to_half(object);
+  CHECK(indexed.find().empty());
+  fs::remove(object);
+  CHECK(indexed.find().empty());
 }
 
 TEST_CASE("racing threads and processes all get a whole object") {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "cpu_shaders/load/host_eval.h"
-#include "cpu_shaders/runtime/machine.h"
+#include "cpu_shaders/machine.h"
 #include "cpu_shaders/translate/translate.h"
 #include "lighting/registry.h"
 #include "tests/load/cache_fixture.h"
@@ -72,4 +72,14 @@ TEST_CASE("an instruction set that the machine lacks is refused by name") {
   }
   const std::string message = message_of([] { load_module(small_shader("r = a.x;"), Number::lanes16, Isa::avx512); });
   CHECK_MESSAGE(message.find("avx512") != std::string::npos, message);
+}
+
+TEST_CASE("TWINSHADE_ISA names what code runs on, up to what the processor has") {
+  CHECK(isa_named(nullptr, Isa::avx2) == Isa::avx2);
+  CHECK(isa_named("", Isa::avx512) == Isa::avx512);
+  CHECK(isa_named("baseline", Isa::avx512) == Isa::baseline);
+  CHECK(isa_named("avx2", Isa::avx2) == Isa::avx2);
+  CHECK(message_of([] { isa_named("avx512", Isa::avx2); }) ==
+        "TWINSHADE_ISA=avx512: this processor has no avx512; the best it has is avx2");
+  CHECK(message_of([] { isa_named("sse9", Isa::avx2); }) == "TWINSHADE_ISA=sse9 is none of baseline, avx2, avx512");
 }

@@ -3,8 +3,8 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include "cpu_shaders/machine.h"
 #include "cpu_shaders/runtime/denormals.h"
-#include "cpu_shaders/runtime/machine.h"
 #include "tests/runtime/operations.h"
 #include "tests/runtime/oracle.h"
 

@@ -1,0 +1,68 @@
+// What a typed header says. That it compiles and computes is shown by the package tests.
+#include "cpu_shaders/package/cpp_header.h"
+
+#include <doctest/doctest.h>
+
+#include "cpu_shaders/package/declaration_order.h"
+#include "cpu_shaders/package/value_tree.h"
+
+using namespace twinshade;
+
+namespace {
+
+CppHeader header_of(const std::string& glsl) {
+  const ShaderSource source = resolve_shader("mine", glsl, "folder/mine.frag");
+  return cpp_header(translate(source), source, {"baseline"});
+}
+
+bool comes_before(const std::string& text, const std::string& a, const std::string& b) {
+  return text.find(a) != std::string::npos && text.find(a) < text.find(b) && text.find(b) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("names are listed as they are declared, whatever stands in comments and functions") {
+  CHECK(declared_names("// in vec3 no;\nuniform float a, b; /* out x */\nfloat f() { return 1.0; }\nflat in\nint c;") ==
+        std::vector<std::string>{"float", "a", "b", "int", "c"});
+  CHECK(declared_names("layout(location = 1) out vec4 d;\nuniform Block { vec4 inside; };") ==
+        std::vector<std::string>{"vec4", "d", "Block"});
+  CHECK(declared_names("in float x; // no end of line").size() == 2);
+  CHECK(declared_names("/* no end").empty());
+}
+
+TEST_CASE("members come in the order of the source, not of use") {
+  const std::string header = header_of(
+                                 "in float second;\nin float first;\nuniform vec2 b;\nuniform vec2 a;\nout vec2 r;\n"
+                                 "void main() { r = a * first + b * second; }\n")
+                                 .header;
+  CHECK(comes_before(header, " second{}", " first{}"));
+  CHECK(comes_before(header, " b{}", " a{}"));
+  CHECK(header.find("/folder") == std::string::npos);
+}
+
+TEST_CASE("what a shader does not have is not in its header") {
+  const std::string plain = header_of("in float x;\nout float r;\nvoid main() { r = x; }\n").header;
+  for (const char* name : {"gl_FragCoord", "gl_FrontFacing", "gl_PrimitiveID", "gl_FragDepth", "discarded", "quad"})
+    CHECK_MESSAGE(plain.find(name) == std::string::npos, name);
+  CHECK(plain.find("InputsDouble") != std::string::npos);
+  const std::string bits = header_of("flat in uint x;\nout float r;\nvoid main() { r = uintBitsToFloat(x); }\n").header;
+  CHECK(bits.find("InputsDouble") == std::string::npos);
+  CHECK(bits.find("// Not in double: folder/mine.frag:3: ") != std::string::npos);
+}
+
+TEST_CASE("flat names become structs and arrays, arrays of arrays too") {
+  std::vector<ValueNode> nodes;
+  add_value(nodes, "lights[0].colour", 0, "Colour", "vec3");
+  add_value(nodes, "lights[0].samples[1]", 4, "float", "float");
+  add_value(nodes, "lights[1].colour", 0, "Colour", "vec3");
+  add_value(nodes, "lights[1].samples[1]", 4, "float", "float");
+  add_value(nodes, "new", 0, "int", "int");
+  CHECK(declare_values(nodes, "") ==
+        "struct lights_struct {\n"
+        "  Colour colour{};  // vec3 colour\n"
+        "  std::array<std::array<float, 4>, 2> samples{};  // float samples[2][4]\n"
+        "};\n"
+        "std::array<lights_struct, 2> lights{};  // struct lights[2]\n"
+        "int new_{};  // int new\n");
+  CHECK(cpp_path("lights[1].new[3]") == "lights[1].new_[3]");
+}

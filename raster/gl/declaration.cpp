@@ -214,4 +214,18 @@ std::vector<Declaration> split_declarations(const ShaderSource& source, const st
   return Splitter(source, tokens).run();
 }
 
+std::vector<std::string> initialized_uniforms(const ShaderSource& source) {
+  const TokenText text = tokenize(source, preprocess(source));
+  const std::vector<Token>& tokens = text.tokens;
+  std::vector<std::string> names;
+  for (const Declaration& d : split_declarations(source, tokens)) {
+    if (d.kind != Declaration::Kind::variables ||
+        std::none_of(d.qualifiers.begin(), d.qualifiers.end(), [&](auto q) { return tokens[q].text == "uniform"; }))
+      continue;
+    for (const Declarator& item : d.declarators)
+      if (item.equals) names.push_back(tokens[item.name].text);
+  }
+  return names;
+}
+
 }  // namespace twinshade::gl

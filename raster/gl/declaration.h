@@ -33,4 +33,7 @@ struct Declaration {
 // too, but less clearly).
 std::vector<Declaration> split_declarations(const ShaderSource& source, const std::vector<Token>& tokens);
 
+// Names of the uniforms that the shader gives a value itself: a bundle may leave them out.
+std::vector<std::string> initialized_uniforms(const ShaderSource& source);
+
 }  // namespace twinshade::gl

@@ -56,10 +56,7 @@ class Rewriter {
       const bool input = has(d, "in"), output = has(d, "out");
       if (d.kind == Declaration::Kind::function && tokens_[d.type + 1].text == "main") has_main = true;
       if (d.kind == Declaration::Kind::qualifiers_only) stage_qualifiers(d);
-      if (d.kind == Declaration::Kind::block && input) {
-        fail(d.type, "interface block " + tokens_[d.type].text +
-                         " as an input is not supported: declare its members as inputs");
-      }
+      if (d.kind == Declaration::Kind::block && input) input_block(d);
       if (d.kind == Declaration::Kind::block && output)
         fail(d.type, "an interface block cannot be a fragment shader's output");
       if (d.kind != Declaration::Kind::variables || d.declarators.empty()) continue;
@@ -69,7 +66,7 @@ class Rewriter {
         outputs(d);
       else if (has(d, "const"))
         remember_constants(d);
-      else if (!has(d, "uniform") && style_ == InputStyle::globals)
+      else if (!has(d, "uniform") && style_ != InputStyle::varyings)
         move_initializers(d);
     }
     if (!has_main)
@@ -108,13 +105,14 @@ class Rewriter {
       if (text.rfind(kPrefix, 0) == 0 && text.rfind(kPrefix + std::string("name_"), 0) != 0)
         fail(i, "names that begin with " + std::string(kPrefix) + " are reserved: rename " + text);
       result_.discards |= text == "discard";
+      result_.has_storage |= text == "buffer";
       result_.writes_depth |= text == "gl_FragDepth";
       result_.uses_fragment_position |= is_any(text, {"gl_FragCoord", "gl_FrontFacing"});
       if (is_any(text, {"dFdx", "dFdy", "fwidth", "dFdxFine", "dFdyFine", "fwidthFine", "dFdxCoarse", "dFdyCoarse",
                         "fwidthCoarse"}) &&
           result_.derivative.empty())
         result_.derivative = position(source_, tokens_[i]) + text;
-      if (text.rfind("interpolateAt", 0) == 0 && style_ == InputStyle::globals)
+      if (text.rfind("interpolateAt", 0) == 0 && style_ != InputStyle::varyings)
         fail(i, text + " needs native attributes: exact ones are evaluated at pixel centres only");
       if (text == "gl_ClipDistance" || text == "gl_CullDistance")
         fail(i, text + " is not supported: no clip planes are drawn with");
@@ -124,7 +122,7 @@ class Rewriter {
   void rename_words() {
     for (Token& token : tokens_) {
       if (token.text == "main") token.text = kUserMain;
-      if (style_ != InputStyle::globals) continue;
+      if (style_ == InputStyle::varyings) continue;
       if (token.text == "gl_FragCoord") token.text = kFragCoord;
       if (token.text == "gl_FrontFacing") token.text = kFrontFacing;
       if (token.text == "gl_PrimitiveID") token.text = kPrimitiveId;
@@ -175,7 +173,7 @@ class Rewriter {
     if (layout_has(d, "origin_upper_left") || layout_has(d, "pixel_center_integer"))
       fail(d.begin, "gl_FragCoord with origin_upper_left or pixel_center_integer is not supported");
     if (!is_any(name, {"gl_FragCoord", "gl_FragDepth"})) fail(d.begin, "redeclaring " + name + " is not supported");
-    if (style_ == InputStyle::globals) erase(d.begin, d.end);
+    if (style_ != InputStyle::varyings) erase(d.begin, d.end);
     return true;
   }
 
@@ -214,10 +212,76 @@ class Rewriter {
       input.used = count_[input.name] > 1;
       result_.inputs.push_back(input);
     }
-    if (style_ == InputStyle::globals)
+    if (style_ != InputStyle::varyings)
       make_global(d);
     else
       for (const auto& [begin, end] : d.layouts) erase(begin, end);
+  }
+
+  // in Block { flat int a; vec3 b; } c;   becomes   struct Block { int a; vec3 b; } c;   and its members globals where
+  // there is no c.
+  void input_block(const Declaration& d) {
+    if (style_ == InputStyle::varyings)
+      fail(d.type, "input block " + tokens_[d.type].text + " needs exact attributes: declare its members as inputs");
+    const std::size_t open = d.type + 1;
+    std::size_t close = open;
+    while (tokens_[close].text != "}") ++close;
+    const bool named = tokens_[close + 1].kind == TokenKind::word;
+    std::vector<std::string> prefixes = {named ? tokens_[close + 1].text + "." : ""};
+    if (named && tokens_[close + 2].text == "[") {
+      std::size_t end = close + 3;
+      while (tokens_[end].text != "]") ++end;
+      const auto length = constant_integer(tokens_, close + 3, end, constants_);
+      if (!length || *length < 1 || *length > 64 || tokens_[end + 1].text != ";")
+        fail(d.type, "input block " + tokens_[d.type].text + " needs one array size of 1 to 64 written as a number");
+      prefixes.clear();
+      for (long k = 0; k < *length; ++k) prefixes.push_back(tokens_[close + 1].text + "[" + std::to_string(k) + "].");
+    }
+    std::set<std::string> own;
+    for (const std::size_t q : d.qualifiers) own.insert(tokens_[q].text);
+    const std::vector<Token> body(tokens_.begin() + long(open) + 1, tokens_.begin() + long(close));
+    std::vector<Input> members;
+    for (const Declaration& member : split_declarations(source_, body)) {
+      std::set<std::string> words = own;
+      for (const std::size_t q : member.qualifiers) words.insert(body[q].text);
+      const std::string& type_name = body[member.type].text;
+      const auto type = value_type(type_name);
+      if (!type || member.kind != Declaration::Kind::variables)
+        fail(open + 1 + member.type,
+             "a member of type " + type_name +
+                 " in an input block is not supported: use float, int, uint, vectors or matrices");
+      for (const Declarator& item : member.declarators) {
+        Input input;
+        input.where = body[item.name];
+        input.name = input.where.text;
+        input.type = type_name;
+        input.scalar = type->scalar, input.columns = type->columns, input.rows = type->rows;
+        if (!item.arrays.empty()) {
+          const auto [begin, end] = item.arrays.front();
+          const auto length = constant_integer(body, begin, end, constants_);
+          if (!length || *length < 1 || item.arrays.size() > 1)
+            fail(open + 1 + item.name, "member " + input.name + " needs one array size written as a number");
+          input.array_length = std::uint32_t(*length);
+        }
+        if (words.count("flat") || type->scalar != Scalar::f32) input.interpolation = "flat";
+        if (words.count("noperspective"))
+          fail(open + 1 + item.name, "noperspective needs native attributes: exact ones are perspective-correct");
+        input.used = count_[input.name] > 1;
+        members.push_back(input);
+      }
+      for (const std::size_t q : member.qualifiers) erase(open + 1 + q, open + 2 + q);
+      for (const auto& [begin, end] : member.layouts) erase(open + 1 + begin, open + 1 + end);
+    }
+    for (const std::string& prefix : prefixes)
+      for (Input input : members) {
+        input.name = prefix + input.name;
+        result_.inputs.push_back(input);
+      }
+    make_global(d);
+    if (named)
+      tokens_[d.type].text = "struct " + tokens_[d.type].text;
+    else
+      erase(d.type, open + 1), erase(close, d.end);
   }
 
   void outputs(const Declaration& d) {
@@ -230,8 +294,8 @@ class Rewriter {
       fail(d.begin, "a second source for blending (index = 1) is not supported");
     const int location = int(layout_value(d, "location").value_or(-1));
     for (const Declarator& item : d.declarators) {
-      const bool array = array_length(d, item, "output") != 0;
-      result_.outputs.push_back({tokens_[item.name].text, type->scalar, type->rows, array, location});
+      result_.outputs.push_back(
+          {tokens_[item.name].text, type->scalar, type->rows, array_length(d, item, "output"), location});
     }
     if (result_.outputs.size() > 8) fail(d.begin, "more than 8 outputs");
     make_global(d);

@@ -14,6 +14,7 @@ namespace twinshade::gl {
 enum class InputStyle {
   globals,   // inputs become globals that the generated main() fills; gl_FragCoord and gl_FrontFacing become kFragCoord
              // ...
+  rows,      // the same; values are given to each fragment, so interpolation qualifiers mean nothing
   varyings,  // inputs stay what they are, less their layout(): the generated vertex shader matches them by name
 };
 
@@ -32,7 +33,7 @@ struct Output {
   std::string name;
   Scalar scalar = Scalar::f32;
   std::uint32_t components = 1;
-  bool array = false;
+  std::uint32_t array_length = 0;  // 0: not an array
   int location = -1;
 };
 
@@ -43,7 +44,7 @@ struct FragmentShader {
   std::vector<Output> outputs;
   std::vector<std::string>
       initializers;  // functions that give globals their values: to be called before the user's main, in order
-  bool discards = false, writes_depth = false, uses_fragment_position = false;
+  bool discards = false, writes_depth = false, uses_fragment_position = false, has_storage = false;
   std::string derivative;  // position and name of the first derivative function that it calls; empty: none
 };
 
@@ -53,10 +54,10 @@ inline constexpr const char* kPrefix = "twinshade_";
 inline constexpr const char* kUserMain = "twinshade_user_main";
 inline constexpr const char* kFragCoord = "twinshade_FragCoord";
 inline constexpr const char* kFrontFacing = "twinshade_FrontFacing";
-inline constexpr const char* kPrimitiveId = "twinshade_PrimitiveID";  // InputStyle::globals only
+inline constexpr const char* kPrimitiveId = "twinshade_PrimitiveID";  // not InputStyle::varyings
 
-// UserError "file:line: ..." for what cannot be rewritten: interface-block and struct inputs, inputs of unknown size,
-// interpolateAt*, noperspective with InputStyle::globals ...
+// UserError "file:line: ..." for what cannot be rewritten: struct inputs, inputs of unknown size, interpolateAt* and
+// noperspective with InputStyle::globals, input blocks with InputStyle::varyings ...
 FragmentShader rewrite_fragment_shader(const ShaderSource& source, InputStyle style);
 
 }  // namespace twinshade::gl

@@ -55,6 +55,26 @@ std::string vertex_data(std::size_t leaf_count) {
          "}\n";
 }
 
+struct CaptureText {
+  std::string outputs, stores;  // declarations, statements
+};
+
+// uint expressions values[first] ... to RGBA32UI attachments, four to each.
+CaptureText capture_text(const std::vector<std::string>& values, std::uint32_t first) {
+  CaptureText text;
+  for (std::uint32_t target = 0; target < kCaptureTargets && first + target * 4 < values.size(); ++target) {
+    const std::string name = "twinshade_capture" + number(target);
+    text.outputs += "layout(location = " + number(target) + ") out uvec4 " + name + ";\n";
+    text.stores += "  " + name + " = uvec4(";
+    for (std::uint32_t c = 0; c < 4; ++c) {
+      const std::size_t index = first + target * 4 + c;
+      text.stores += (c == 0 ? "" : ", ") + (index < values.size() ? values[index] : "0u");
+    }
+    text.stores += ");\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::vector<InputLeaf> leaves_of(const std::vector<Input>& inputs) {
@@ -71,8 +91,13 @@ std::vector<InputLeaf> leaves_of(const std::vector<Input>& inputs) {
 }
 
 ShaderGenerator::ShaderGenerator(const ShaderSource& source, const FragmentShader& shader, std::vector<Input> inputs,
-                                 Supply supply)
-    : source_(source), shader_(shader), inputs_(std::move(inputs)), supply_(supply), leaves_(leaves_of(inputs_)) {}
+                                 Supply supply, int glsl_version)
+    : source_(source),
+      shader_(shader),
+      inputs_(std::move(inputs)),
+      supply_(supply),
+      glsl_version_(glsl_version),
+      leaves_(leaves_of(inputs_)) {}
 
 std::vector<std::string> ShaderGenerator::component_names() const {
   std::vector<std::string> names;
@@ -83,14 +108,15 @@ std::vector<std::string> ShaderGenerator::component_names() const {
 
 Geometry ShaderGenerator::geometry() const {
   if (supply_ == Supply::texels) return Geometry::full_screen;
+  if (supply_ == Supply::rows) return Geometry::rows;
   if (supply_ == Supply::exact || leaves_.size() > kMostVertexAttributes) return Geometry::pulled;
   return Geometry::attributes;
 }
 
 // softpipe has GLSL 3.30 and the rest by extensions; an unknown one there is a warning only.
 std::string ShaderGenerator::head() const {
-  std::string head = supply_ == Supply::texels ? "#version 330 core\n" : "#version 450 core\n";
-  if (supply_ == Supply::texels)
+  std::string head = "#version " + std::to_string(glsl_version_) + " core\n";
+  if (glsl_version_ == 330)
     for (const char* extension :
          {"gpu_shader5", "shader_storage_buffer_object", "shading_language_420pack", "explicit_uniform_location",
           "shading_language_packing", "arrays_of_arrays", "shader_image_load_store", "texture_query_levels"})
@@ -104,16 +130,40 @@ bool ShaderGenerator::needs_triangle() const {
   return supply_ == Supply::exact || (supply_ == Supply::texels && shader_.uses_fragment_position);
 }
 
+// Which pixel of the CPU's frame to shade. softpipe takes the element that a store with a variable index goes to from
+// the first pixel of a quad, wherever that one is: a pixel that left the shader early would send the others' loops
+// astray. So pixels that the CPU did not cover shade a covered pixel of their quad, if there is one, and are discarded
+// in the end. Where the shader writes to memory they are discarded at once.
+std::string ShaderGenerator::covered_pixel() const {
+  std::string text =
+      "  ivec2 twinshade_pixel = ivec2(gl_FragCoord.xy);\n"
+      "  uint twinshade_id = texelFetch(twinshade_cpu_ids, twinshade_pixel, 0).x;\n"
+      "  twinshade_covered = twinshade_id != 0xffffffffu;\n";
+  if (shader_.has_storage) return text + "  if (!twinshade_covered) discard;\n";
+  return text +
+         "  ivec2 twinshade_last = textureSize(twinshade_cpu_ids, 0) - 1;\n"
+         "  for (int k = 1; k < 4; ++k) {\n"
+         "    ivec2 twinshade_other = min(ivec2(gl_FragCoord.xy) ^ ivec2(k & 1, k >> 1), twinshade_last);\n"
+         "    uint twinshade_other_id = texelFetch(twinshade_cpu_ids, twinshade_other, 0).x;\n"
+         "    bool twinshade_taken = twinshade_id == 0xffffffffu && twinshade_other_id != 0xffffffffu;\n"
+         "    twinshade_pixel = twinshade_taken ? twinshade_other : twinshade_pixel;\n"
+         "    twinshade_id = twinshade_taken ? twinshade_other_id : twinshade_id;\n"
+         "  }\n"
+         "  if (twinshade_id == 0xffffffffu) discard;\n";
+}
+
 // Statements that give every input its value, and the built-ins that depend on it.
 std::string ShaderGenerator::fill() const {
   if (supply_ == Supply::varyings) return "";
   std::string text;
   if (supply_ == Supply::texels)
+    text += covered_pixel() + "  twinshade_PrimitiveID = int(twinshade_id);\n";
+  else if (supply_ == Supply::rows)
     text +=
         "  ivec2 twinshade_pixel = ivec2(gl_FragCoord.xy);\n"
-        "  uint twinshade_id = texelFetch(twinshade_cpu_ids, twinshade_pixel, 0).x;\n"
-        "  if (twinshade_id == 0xffffffffu) discard;\n"
-        "  twinshade_PrimitiveID = int(twinshade_id);\n";
+        "  twinshade_FragCoord = vec4(gl_FragCoord.xy, 0.5, 1.0);\n"
+        "  twinshade_FrontFacing = true;\n"
+        "  twinshade_PrimitiveID = 0;\n";
   else
     text += "  twinshade_PrimitiveID = gl_PrimitiveID;\n";
   if (needs_triangle()) {
@@ -142,7 +192,7 @@ std::string ShaderGenerator::fill() const {
                                             "], " + number(leaf.components) + ", " + number(c) + ")");
         };
         std::string value;
-        if (supply_ == Supply::texels)
+        if (supply_ == Supply::texels || supply_ == Supply::rows)
           value = from_bits(leaf.scalar,
                             "texelFetch(twinshade_cpu_attributes, ivec3(twinshade_pixel, " + number(plane) + "), 0).x");
         else if (flat)
@@ -169,14 +219,17 @@ std::string ShaderGenerator::fragment(const std::string& outputs, const std::str
             " { uint twinshade_index_list[]; };\nuint twinshade_index(int i) { return twinshade_index_list[i]; }\n"
             "uvec4 twinshade_position(uint vertex) { return twinshade_position_list[vertex]; }\n";
   if (needs_triangle()) text += "uniform vec2 twinshade_ndc_scale;\n" + exact_attribute_functions();
-  if (supply_ == Supply::texels)
-    text += "uniform usampler2D twinshade_cpu_ids;\nuniform usampler2DArray twinshade_cpu_attributes;\n";
+  if (supply_ == Supply::texels) text += "uniform usampler2D twinshade_cpu_ids;\nbool twinshade_covered;\n";
+  if (supply_ == Supply::texels || supply_ == Supply::rows)
+    text += "uniform usampler2DArray twinshade_cpu_attributes;\n";
   if (supply_ != Supply::varyings)
     text += "vec4 twinshade_FragCoord;\nbool twinshade_FrontFacing;\nint twinshade_PrimitiveID;\n";
   text += "#line 1 0\n" + shader_.text;
   text += "\n#line 1 " + number(kGeneratedFile) + "\n" + outputs + "void main() {\n" + fill() + before_user;
   for (const std::string& function : shader_.initializers) text += "  " + function + "();\n";
-  return text + "  " + kUserMain + "();\n" + after_user + "}\n";
+  text += "  " + std::string(kUserMain) + "();\n" + after_user;
+  if (supply_ == Supply::texels) text += "  if (!twinshade_covered) discard;\n";
+  return text + "}\n";
 }
 
 // The first output, as the frame keeps it: missing components 0, integers by bit pattern.
@@ -189,8 +242,8 @@ std::string ShaderGenerator::color_expression() const {
   for (std::uint32_t c = 0; c < 4; ++c) {
     std::string value = "0.0";
     if (c < first->components) {
-      value =
-          first->name + (first->array ? "[0]" : "") + (first->components > 1 ? std::string(".") + kComponent[c] : "");
+      value = first->name + (first->array_length != 0 ? "[0]" : "") +
+              (first->components > 1 ? std::string(".") + kComponent[c] : "");
       if (first->scalar == Scalar::i32) value = "intBitsToFloat(" + value + ")";
       if (first->scalar == Scalar::u32) value = "uintBitsToFloat(" + value + ")";
     }
@@ -200,7 +253,7 @@ std::string ShaderGenerator::color_expression() const {
 }
 
 std::string ShaderGenerator::vertex() const {
-  if (supply_ == Supply::texels)
+  if (supply_ == Supply::texels || supply_ == Supply::rows)
     return "#version 330 core\n"
            "void main() {\n"
            "  gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);\n"
@@ -247,26 +300,42 @@ ProgramText ShaderGenerator::timed() const {
 ProgramText ShaderGenerator::prepass() const {
   FragmentShader empty;
   empty.text = "void " + std::string(kUserMain) + "() {}\n";
-  const ShaderGenerator depth_only(source_, empty, {}, supply_);
+  const ShaderGenerator depth_only(source_, empty, {}, supply_, glsl_version_);
   return {depth_only.vertex(), depth_only.fragment("", "", "")};
+}
+
+std::vector<ShaderGenerator::Component> ShaderGenerator::results() const {
+  std::vector<Component> components;
+  if (shader_.discards) components.push_back({kKept, "1u"});
+  for (const Output& output : shader_.outputs)
+    for (std::uint32_t element = 0; element < std::max(output.array_length, 1u); ++element) {
+      const std::string index = output.array_length == 0 ? "" : "[" + number(element) + "]";
+      const InputLeaf leaf{output.name + index, output.scalar, output.components};
+      for (std::uint32_t c = 0; c < leaf.components; ++c) components.push_back({component(leaf, c), as_bits(leaf, c)});
+    }
+  if (shader_.writes_depth) components.push_back({"gl_FragDepth", "floatBitsToUint(gl_FragDepth)"});
+  return components;
+}
+
+std::vector<std::string> ShaderGenerator::result_names() const {
+  std::vector<std::string> names;
+  for (const Component& component : results()) names.push_back(component.name);
+  return names;
+}
+
+ProgramText ShaderGenerator::result(std::uint32_t first) const {
+  std::vector<std::string> values;
+  for (const Component& component : results()) values.push_back(component.bits);
+  const CaptureText text = capture_text(values, first);
+  return {vertex(), fragment(text.outputs, "", text.stores)};
 }
 
 ProgramText ShaderGenerator::capture(std::uint32_t first) const {
   std::vector<std::string> values;
   for (const InputLeaf& leaf : leaves_)
     for (std::uint32_t c = 0; c < leaf.components; ++c) values.push_back(as_bits(leaf, c));
-  std::string outputs, stores;
-  for (std::uint32_t target = 0; target < kCaptureTargets && first + target * 4 < values.size(); ++target) {
-    const std::string name = "twinshade_capture" + number(target);
-    outputs += "layout(location = " + number(target) + ") out uvec4 " + name + ";\n";
-    stores += "  " + name + " = uvec4(";
-    for (std::uint32_t c = 0; c < 4; ++c) {
-      const std::size_t index = first + target * 4 + c;
-      stores += (c == 0 ? "" : ", ") + (index < values.size() ? values[index] : "0u");
-    }
-    stores += ");\n";
-  }
-  return {vertex(), fragment(outputs, stores, "")};
+  const CaptureText text = capture_text(values, first);
+  return {vertex(), fragment(text.outputs, text.stores, "")};
 }
 
 }  // namespace twinshade::gl

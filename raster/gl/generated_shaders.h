@@ -13,6 +13,7 @@ enum class Supply {
   exact,     // vertex data in buffer textures, by shaders/exact/attributes.glsl
   varyings,  // GL's own interpolation
   texels,    // what the CPU captured, by texelFetch (softpipe)
+  rows,      // rows of a table, one a fragment, by texelFetch: see row_grid.h
 };
 
 // File number that driver logs show for generated lines, so that they are not taken for the author's.
@@ -34,33 +35,46 @@ inline constexpr std::size_t kMostVertexAttributes = 15;
 
 class ShaderGenerator {
  public:
-  ShaderGenerator(const ShaderSource& source, const FragmentShader& shader, std::vector<Input> inputs, Supply supply);
+  // glsl_version: 450, or 330 with extensions for softpipe.
+  ShaderGenerator(const ShaderSource& source, const FragmentShader& shader, std::vector<Input> inputs, Supply supply,
+                  int glsl_version);
 
   const std::vector<InputLeaf>& leaves() const { return leaves_; }
   std::vector<std::string> component_names() const;  // as Frame::attribute_names
+  std::vector<std::string> result_names() const;  // of what result() captures: kKept, then outputs, then gl_FragDepth
   Geometry geometry() const;
 
   ProgramText frame() const;                       // colour and primitive id
   ProgramText timed() const;                       // colour only
   ProgramText prepass() const;                     // depth only
   ProgramText capture(std::uint32_t first) const;  // components [first, first + 4 * kCaptureTargets)
+  ProgramText result(std::uint32_t first) const;   // the same of what the user's main() leaves behind
 
  private:
   std::string head() const;
   std::string fragment(const std::string& outputs, const std::string& before_user, const std::string& after_user) const;
+  std::string covered_pixel() const;
   std::string fill() const;
   std::string color_expression() const;
   std::string vertex() const;
   bool needs_triangle() const;
+  struct Component {
+    std::string name, bits;  // a GLSL expression of type uint
+  };
+  std::vector<Component> results() const;
 
   const ShaderSource& source_;
   const FragmentShader& shader_;
   std::vector<Input> inputs_;
   Supply supply_;
+  int glsl_version_;
   std::vector<InputLeaf> leaves_;
 };
 
 // Every vecN that inputs are made of, in order.
 std::vector<InputLeaf> leaves_of(const std::vector<Input>& inputs);
+
+// The result that is 1 where the shader did not discard.
+inline constexpr const char* kKept = "twinshade_kept";
 
 }  // namespace twinshade::gl

@@ -2,71 +2,17 @@
 #include "raster/gl/gl_renderer.h"
 
 #include <algorithm>
-#include <sstream>
 
 #include "base/error.h"
-#include "raster/gl/bundle_image.h"
-#include "raster/gl/fragment_rewrite.h"
-#include "raster/gl/generated_shaders.h"
-#include "raster/gl/worker_process.h"
+#include "raster/gl/gl_session.h"
 
 namespace twinshade {
 namespace gl {
-namespace {
-
-std::string attribute_names(const Bundle& bundle) {
-  std::string names;
-  for (const Attribute& attribute : bundle.attributes) names += (names.empty() ? "" : ", ") + attribute.name;
-  return names.empty() ? "none" : names;
-}
-
-std::string leaf_type(Scalar scalar, std::uint32_t components) {
-  const std::string prefix = scalar == Scalar::i32 ? "i" : scalar == Scalar::u32 ? "u" : "";
-  if (components > 1) return prefix + "vec" + std::to_string(components);
-  return scalar == Scalar::f32 ? "float" : prefix + (scalar == Scalar::u32 ? "int" : "nt");
-}
-
-// Inputs that the bundle supplies. What is declared but never used may be missing.
-std::vector<Input> supplied_inputs(const Bundle& bundle, const ShaderSource& source, const std::vector<Input>& inputs) {
-  std::vector<Input> supplied;
-  for (const Input& input : inputs) {
-    bool complete = true;
-    for (const InputLeaf& leaf : leaves_of({input})) {
-      const Attribute* attribute = bundle.find_attribute(leaf.name);
-      complete = complete && attribute != nullptr;
-      if (!input.used) continue;
-      const std::string what =
-          position(source, input.where) + "input " + leaf.name + " (" + leaf_type(leaf.scalar, leaf.components) + ")";
-      if (attribute == nullptr) throw UserError(what + " is not in the bundle, which has: " + attribute_names(bundle));
-      if (attribute->scalar != leaf.scalar || attribute->components != leaf.components)
-        throw UserError(what + " is " + leaf_type(attribute->scalar, attribute->components) + " in the bundle");
-    }
-    if (complete) supplied.push_back(input);
-  }
-  return supplied;
-}
-
-// The first line of a driver's log that reports an error, with the author's file and line.
-std::string first_error(const ShaderSource& source, const std::string& log) {
-  std::istringstream lines(map_driver_log(source, log));
-  std::string first;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.find("error") != std::string::npos) return line;
-    if (first.empty()) first = line;
-  }
-  return first;
-}
-
-bool about_generated_lines(const std::string& error) {
-  return error.rfind(std::to_string(kGeneratedFile) + ":", 0) == 0;
-}
-
-}  // namespace
 
 class GlRenderer final : public Renderer {
  public:
   GlRenderer(GlBackend backend, GlEnvironment environment)
-      : backend_(backend), worker_(backend, std::move(environment)) {}
+      : backend_(backend), session_(backend, std::move(environment)) {}
 
   std::string name() const override { return backend_name(backend_); }
 
@@ -78,9 +24,9 @@ class GlRenderer final : public Renderer {
     validate(bundle, "bundle");
     const bool exact = options.attributes == AttributeMode::exact;
     const FragmentShader shader = rewrite_fragment_shader(source, exact ? InputStyle::globals : InputStyle::varyings);
-    const ShaderGenerator generator(source, shader, supplied_inputs(bundle, source, shader.inputs),
-                                    exact ? Supply::exact : Supply::varyings);
-    DrawRequest request = basic_request(bundle, generator, options.time_limit_seconds);
+    const ShaderGenerator generator(source, shader, supplied_inputs(bundle.attributes, source, shader.inputs),
+                                    exact ? Supply::exact : Supply::varyings, 450);
+    DrawRequest request = basic_request(bundle, source, generator, options.time_limit_seconds);
     const std::vector<std::string> names = generator.component_names();
     if (options.capture_attributes) {
       request.components = std::uint32_t(names.size());
@@ -115,86 +61,65 @@ class GlRenderer final : public Renderer {
     if (!shader.derivative.empty())
       throw UserError(shader.derivative +
                       " cannot be shaded on softpipe: pixels are drawn there without their primitive's neighbours");
-    const ShaderGenerator generator(source, shader, supplied_inputs(bundle, source, shader.inputs), Supply::texels);
-    DrawRequest request = basic_request(bundle, generator, time_limit_seconds);
+    const ShaderGenerator generator(source, shader, supplied_inputs(bundle.attributes, source, shader.inputs),
+                                    Supply::texels, 330);
+    DrawRequest request = basic_request(bundle, source, generator, time_limit_seconds);
     const std::vector<std::string> names = generator.component_names();
     request.components = std::uint32_t(names.size());
     return exchange(bundle, source, request, &cpu_frame, names);
   }
 
+  std::vector<Buffer> dispatch(const Bundle& bundle, const ShaderSource& source,
+                               const std::array<std::uint32_t, 3>& groups, double time_limit_seconds) {
+    DrawRequest request;
+    const std::string version = "#version " + std::to_string(source.version) + (source.es ? " es\n" : "\n");
+    request.frame.compute = gl_text(source, version, "");
+    std::copy(groups.begin(), groups.end(), request.groups);
+    request.time_limit_seconds = time_limit_seconds;
+    put_uniforms(bundle, source, request);
+    std::size_t memory = 64;
+    for (const Buffer& buffer : bundle.buffers)
+      if (buffer.storage) memory += (buffer.bytes.size() + 63) / 64 * 64;
+    session_.exchange(bundle, source, request, memory, [] {});
+    std::vector<Buffer> result;
+    const std::byte* from = session_.memory();
+    for (const Buffer& buffer : bundle.buffers) {
+      if (!buffer.storage) continue;
+      result.push_back({buffer.name, true, {from, from + buffer.bytes.size()}});
+      from += (buffer.bytes.size() + 63) / 64 * 64;
+    }
+    return result;
+  }
+
  private:
   static std::size_t pixels(const Bundle& bundle) { return std::size_t(bundle.width) * bundle.height; }
 
-  static DrawRequest basic_request(const Bundle& bundle, const ShaderGenerator& generator, double time_limit_seconds) {
-    DrawRequest request;
-    request.width = bundle.width, request.height = bundle.height;
-    request.cull_back_faces = bundle.cull_back_faces;
-    request.geometry = generator.geometry();
-    request.leaves = generator.leaves();
+  static DrawRequest basic_request(const Bundle& bundle, const ShaderSource& source, const ShaderGenerator& generator,
+                                   double time_limit_seconds) {
+    DrawRequest request = request_for(bundle, source, generator, time_limit_seconds);
     request.frame = generator.frame();
-    request.time_limit_seconds = time_limit_seconds;
-    for (const Uniform& u : bundle.uniforms)
-      request.uniforms.push_back({u.name, u.scalar, u.columns, u.rows, u.array_length, u.values});
     return request;
   }
 
-  // One round trip. A worker that has died is started again, and gets everything again.
   Frame exchange(const Bundle& bundle, const ShaderSource& source, DrawRequest& request, const Frame* cpu_frame,
                  const std::vector<std::string>& cpu_names = {}) {
-    if (!worker_.running()) {
-      image_.forget();
-      shared_frame_ = SharedMemory();
-      worker_.start(request.time_limit_seconds);
-    }
-    std::vector<int> descriptors;
-    try {
-      request.new_image = image_.update(bundle);
-      if (request.new_image) {
-        request.image = image_.index();
-        descriptors.push_back(image_.fd());
-      }
-      const FrameLayout layout = frame_layout(pixels(bundle), request.components, cpu_frame != nullptr);
-      if (shared_frame_.size() < layout.size) {
-        shared_frame_ = SharedMemory::create(layout.size);
-        descriptors.push_back(shared_frame_.fd());
-      }
+    const FrameLayout layout = frame_layout(pixels(bundle), request.components, cpu_frame != nullptr);
+    DrawReply reply = session_.exchange(bundle, source, request, layout.size, [&] {
       if (cpu_frame != nullptr) put_cpu_pixels(*cpu_frame, cpu_names, layout);
-    } catch (const std::system_error& error) {
-      worker_.stop();
-      throw BackendError(name() + ": " + error.what());
-    }
-
-    WireWriter writer;
-    writer.put(request);
-    DrawReply reply;
-    const std::string answer = worker_.exchange(writer.take(), descriptors, request.time_limit_seconds);
-    WireReader(answer).get(reply);
-    if (reply.outcome != Outcome::ok) fail(source, reply);
+    });
     return frame_of(bundle, reply, cpu_frame);
-  }
-
-  [[noreturn]] void fail(const ShaderSource& source, const DrawReply& reply) {
-    const std::string file = source.files.empty() ? source.name : source.files[0];
-    if (reply.outcome == Outcome::user_error) throw UserError(file + ": " + reply.text);
-    if (reply.outcome == Outcome::glsl_error) {
-      const std::string error = first_error(source, reply.text);
-      if (about_generated_lines(error)) throw BackendError(name() + ": the driver rejects generated GLSL: " + error);
-      throw UserError(error + " (" + name() + ")");
-    }
-    worker_.stop();  // after a failed driver call nothing is known about its state
-    throw BackendError(name() + ": " + reply.text);
   }
 
   void put_cpu_pixels(const Frame& cpu, const std::vector<std::string>& names, const FrameLayout& layout) {
     const std::size_t count = std::size_t(cpu.width) * cpu.height;
-    auto* ids = reinterpret_cast<std::uint32_t*>(shared_frame_.data() + layout.cpu_id);
+    auto* ids = reinterpret_cast<std::uint32_t*>(session_.memory() + layout.cpu_id);
     for (std::size_t p = 0; p < count; ++p) ids[p] = cpu.coverage[p] ? cpu.primitive_id[p] : kNoPrimitive;
     for (std::size_t i = 0; i < names.size(); ++i) {
       const auto found = std::find(cpu.attribute_names.begin(), cpu.attribute_names.end(), names[i]);
       if (found == cpu.attribute_names.end())
         throw UserError("softpipe: the frame to shade has no captured attribute " + names[i]);
       const auto plane = std::size_t(found - cpu.attribute_names.begin());
-      std::memcpy(shared_frame_.data() + layout.cpu_attributes + i * count * 4, cpu.attributes.data() + plane * count,
+      std::memcpy(session_.memory() + layout.cpu_attributes + i * count * 4, cpu.attributes.data() + plane * count,
                   count * 4);
     }
   }
@@ -202,7 +127,7 @@ class GlRenderer final : public Renderer {
   template <class T>
   void copy_out(std::uint64_t offset, std::size_t count, std::vector<T>& to) const {
     to.resize(count);
-    if (count != 0) std::memcpy(to.data(), shared_frame_.data() + offset, count * sizeof(T));
+    if (count != 0) std::memcpy(to.data(), session_.memory() + offset, count * sizeof(T));
   }
 
   Frame frame_of(const Bundle& bundle, DrawReply& reply, const Frame* cpu_frame) const {
@@ -224,14 +149,12 @@ class GlRenderer final : public Renderer {
     frame.milliseconds = std::move(reply.milliseconds);
     frame.provenance = std::move(reply.provenance);
     frame.provenance.insert(frame.provenance.begin(), {"backend", name()});
-    for (const auto& setting : worker_.settings()) frame.provenance.push_back(setting);
+    for (const auto& setting : session_.settings()) frame.provenance.push_back(setting);
     return frame;
   }
 
   const GlBackend backend_;
-  WorkerProcess worker_;
-  BundleImage image_;
-  SharedMemory shared_frame_;
+  GlSession session_;
 };
 
 }  // namespace gl
@@ -245,6 +168,12 @@ Frame shade_on_softpipe(const Bundle& bundle, const ShaderSource& source, const 
   if (cpu_frame.width != bundle.width || cpu_frame.height != bundle.height)
     throw UserError("softpipe: the frame to shade has another size than the bundle");
   return gl::GlRenderer(GlBackend::softpipe, environment).shade(bundle, source, cpu_frame, time_limit_seconds);
+}
+
+std::vector<Buffer> dispatch_on_gl(GlBackend backend, const Bundle& bundle, const ShaderSource& source,
+                                   const std::array<std::uint32_t, 3>& groups, const GlEnvironment& environment,
+                                   double time_limit_seconds) {
+  return gl::GlRenderer(backend, environment).dispatch(bundle, source, groups, time_limit_seconds);
 }
 
 }  // namespace twinshade

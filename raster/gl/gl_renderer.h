@@ -1,6 +1,8 @@
 // OpenGL on the CPU or GPU, each draw in a worker process of our own binary with its own environment and time limit.
 #pragma once
 
+#include <array>
+
 #include "raster/renderer.h"
 
 namespace twinshade {
@@ -21,6 +23,13 @@ std::unique_ptr<Renderer> make_gl_renderer(GlBackend backend, const GlEnvironmen
 // cleared.
 Frame shade_on_softpipe(const Bundle& bundle, const ShaderSource& source, const Frame& cpu_frame,
                         const GlEnvironment& environment, double time_limit_seconds);
+
+// Runs a compute shader of GLSL 430 or later, or ES 310, on llvmpipe over `groups` work groups, with the bundle's
+// uniforms, textures and buffers, and gives back the bundle's storage buffers as it left them. Errors as those of a
+// draw.
+std::vector<Buffer> dispatch_on_gl(GlBackend backend, const Bundle& bundle, const ShaderSource& source,
+                                   const std::array<std::uint32_t, 3>& groups, const GlEnvironment& environment = {},
+                                   double time_limit_seconds = 60);
 
 // To be called first thing in main(): if this process was started as a worker, serves the parent and returns its exit
 // code.

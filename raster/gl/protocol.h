@@ -8,9 +8,10 @@ namespace twinshade::gl {
 
 struct ProgramText {
   std::string vertex, fragment;
+  std::string compute = {};  // if not empty: alone
 
-  void write(WireWriter& out) const { out.put(vertex), out.put(fragment); }
-  void read(WireReader& in) { in.get(vertex), in.get(fragment); }
+  void write(WireWriter& out) const { out.put(vertex), out.put(fragment), out.put(compute); }
+  void read(WireReader& in) { in.get(vertex), in.get(fragment), in.get(compute); }
 };
 
 // One vecN of per-vertex data (an input, an element of an array, a column of a matrix), under its name in the bundle.
@@ -98,6 +99,7 @@ enum class Geometry : std::uint8_t {
   attributes,   // triangles; one vertex attribute per leaf behind the position
   pulled,       // triangles; shaders read vertex data from buffer textures
   full_screen,  // one triangle over the frame; the shader reads `cpu` pixels
+  rows,         // the same; the frame is a grid of rows, and only captures are drawn
 };
 
 // Where the parts of a frame lie in the shared memory of a draw, in bytes. Planes of `cpu` pixels (full_screen) lie
@@ -105,14 +107,21 @@ enum class Geometry : std::uint8_t {
 struct FrameLayout {
   std::uint64_t color = 0, depth = 0, id = 0, attributes = 0, cpu_id = 0, cpu_attributes = 0, size = 0;
 };
+std::uint64_t storage_bytes(const ImageIndex& image);  // of all storage buffers as a dispatch gives them back
 FrameLayout frame_layout(std::uint64_t pixels, std::uint64_t components, bool full_screen);
+// Geometry::rows: inputs in cpu_attributes, results in attributes.
+FrameLayout row_layout(std::uint64_t pixels, std::uint64_t components, std::uint64_t results);
 
+// Or a dispatch: `frame` is a compute shader, run over `groups` work groups, and the image's storage buffers come back
+// in the shared memory, one after another in their order, each from a multiple of 64 bytes on.
 struct DrawRequest {
+  std::uint32_t groups[3] = {0, 0, 0};
   std::uint32_t width = 0, height = 0;
   bool cull_back_faces = false;
   Geometry geometry = Geometry::attributes;
   std::vector<InputLeaf> leaves;
   std::uint32_t components = 0;       // of all leaves
+  std::uint32_t results = 0;          // Geometry::rows: components that the captures write
   ProgramText frame;                  // writes colour (attachment 0) and primitive id (1)
   std::vector<ProgramText> captures;  // each writes the next kCaptureTargets * 4 components to RGBA32UI attachments
   ProgramText timed;                  // colour only; used if `timing`
@@ -121,6 +130,7 @@ struct DrawRequest {
   std::int32_t repeat = 1, warmup = 0;
   double time_limit_seconds = 60;
   std::vector<UniformValue> uniforms;
+  std::vector<std::string> initialized;  // uniforms of which the shader has values and the bundle none
   bool new_image = false;
   ImageIndex image;  // if new_image
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "cpu_shaders/runtime/machine.h"
+#include "cpu_shaders/machine.h"
 
 namespace twinshade::tiled {
 namespace {
@@ -19,10 +19,7 @@ const ShaderEntry* find_entry(const ShaderModule& module, Number number, Isa mos
 
 }  // namespace
 
-const char* isa_name(Isa isa) {
-  static constexpr const char* kNames[] = {"baseline", "avx2", "avx512"};
-  return kNames[int(isa)];
-}
+const char* isa_name(Isa isa) { return kIsaNames[int(isa)]; }
 
 const char* number_name(Number number) {
   static constexpr const char* kNames[] = {"lanes4", "lanes8", "lanes16", "scalar", "float64"};
@@ -31,9 +28,7 @@ const char* number_name(Number number) {
 
 const ShaderEntry& choose_entry(const ShaderModule& module, Number number, std::optional<Isa> isa) {
   const Isa machine = machine_isa();
-  if (isa && *isa > machine)
-    throw UserError(std::string("this processor has no ") + isa_name(*isa) + ": the best it has is " +
-                    isa_name(machine));
+  if (isa) require_isa(*isa);
   const ShaderEntry* entry = find_entry(module, number, isa.value_or(machine));
   if (!isa && number == Number::lanes16)
     for (const Number fewer : {Number::lanes8, Number::lanes4}) {

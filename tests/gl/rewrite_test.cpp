@@ -189,9 +189,27 @@ TEST_CASE("what the rewritten shader does is known") {
   CHECK(!result.inputs[1].used);
 }
 
+TEST_CASE("input blocks become structs, or globals where they have no name") {
+  const FragmentShader shader = rewrite_fragment_shader(
+      test::shader(
+          "in Surface { flat ivec2 id; layout(location = 3) vec3 n[2]; } surface[2];\n"
+          "in Loose { float scale; };\nout vec4 color;\nvoid main() { color = vec4(surface[1].n[0], scale); }\n"),
+      InputStyle::globals);
+  std::vector<std::string> names;
+  for (const Input& input : shader.inputs) names.push_back(input.name);
+  CHECK(names == std::vector<std::string>{"surface[0].id", "surface[0].n", "surface[1].id", "surface[1].n", "scale"});
+  CHECK(shader.inputs[0].interpolation == "flat");
+  CHECK(shader.inputs[1].interpolation == "");
+  CHECK(shader.inputs[1].array_length == 2);
+  CHECK(shader.text.find("struct Surface {") != std::string::npos);
+  CHECK(shader.text.find("location") == std::string::npos);
+  CHECK(shader.text.find("Loose") == std::string::npos);
+}
+
 TEST_CASE("what cannot be rewritten is refused by name, file and line") {
-  CHECK(rejection("\nin Block { vec3 a; } b;\n" + kMain) ==
-        "test.frag:2: interface block Block as an input is not supported: declare its members as inputs");
+  CHECK(rejection("\nin Block { bool a; } b;\n" + kMain) ==
+        "test.frag:2: a member of type bool in an input block is not supported: use float, int, uint, vectors or "
+        "matrices");
   CHECK(rejection("struct S { float a; };\nin S s;\n" + kMain) ==
         "test.frag:2: an input of type S is not supported: use float, int, uint, vectors or matrices");
   CHECK(rejection("in float a[];\n" + kMain) ==

@@ -54,6 +54,20 @@ TEST_CASE("the exact dialect shades to the same bits on softpipe") {
   CHECK(result.pixels_differ == 0);
 }
 
+TEST_CASE("pixels beside uncovered ones store to array elements as the others do") {
+  // softpipe takes a store's index from the first pixel of a quad.
+  CHECK(shaded_alike(kInputs +
+                     "vec3 kept[8];\n"
+                     "void main() {\n"
+                     "  for (int i = 0; i < 8; i += 4)\n"
+                     "    for (int k = 0; k < 4; ++k) kept[i + k] = v_color + float(i + k);\n"
+                     "  precise vec3 sum = vec3(0.0);\n"
+                     "  for (int i = 0; i < 8; ++i) { precise vec3 twice = sum * 2.0; sum = twice + kept[i]; }\n"
+                     "  c = vec4(sum, 1.0);\n"
+                     "}\n")
+            .pixels_differ == 0);
+}
+
 TEST_CASE("built-ins of the fragment are the exact ones on softpipe too") {
   CHECK(shaded_alike(
             "out vec4 c; void main() { c = vec4(gl_FragCoord.zw, float(gl_PrimitiveID), gl_FrontFacing ? 1.0 : 0.0); }")

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
-#include "cpu_shaders/runtime/machine.h"
+#include "cpu_shaders/machine.h"
 #include "raster/tiled/tiled_renderer.h"
 #include "tests/tiled/hand_module.h"
 #include "tests/tiled/random_scene.h"

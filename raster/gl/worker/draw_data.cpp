@@ -111,9 +111,12 @@ void DrawData::set_cpu_pixels(std::uint32_t width, std::uint32_t height, std::ui
     gl_.GenTextures(1, texture);
   }
   gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  gl_.BindTexture(GL_TEXTURE_2D, cpu_ids_);
-  set_sampling(gl_, GL_TEXTURE_2D, GL_NEAREST, GL_CLAMP_TO_EDGE);
-  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_R32UI, GLsizei(width), GLsizei(height), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, ids);
+  if (ids != nullptr) {
+    gl_.BindTexture(GL_TEXTURE_2D, cpu_ids_);
+    set_sampling(gl_, GL_TEXTURE_2D, GL_NEAREST, GL_CLAMP_TO_EDGE);
+    gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_R32UI, GLsizei(width), GLsizei(height), 0, GL_RED_INTEGER, GL_UNSIGNED_INT,
+                   ids);
+  }
   if (components != 0) {
     gl_.BindTexture(GL_TEXTURE_2D_ARRAY, cpu_attributes_);
     set_sampling(gl_, GL_TEXTURE_2D_ARRAY, GL_NEAREST, GL_CLAMP_TO_EDGE);
@@ -132,7 +135,7 @@ const ImageAttribute& DrawData::attribute(const std::string& name) const {
 void DrawData::bind_geometry(const DrawRequest& request) {
   gl_.BindVertexArray(vertex_array_);
   for (; enabled_attributes_ > 0; --enabled_attributes_) gl_.DisableVertexAttribArray(enabled_attributes_ - 1);
-  if (request.geometry == Geometry::full_screen) return;
+  if (request.geometry == Geometry::full_screen || request.geometry == Geometry::rows) return;
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, drawn_indices_);
   gl_.BindBuffer(GL_ARRAY_BUFFER, vertices_);
   gl_.VertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, 0, nullptr);
@@ -154,6 +157,7 @@ void DrawData::bind_geometry(const DrawRequest& request) {
 void DrawData::bind(const Program& program, const DrawRequest& request) {
   gl_.UseProgram(program.id());
   next_unit_ = 0;
+  seamless_.reset();
   for (const ActiveUniform& uniform : program.uniforms()) {
     if (bind_own_uniform(uniform, request)) continue;
     if (uniform_type(uniform.type))
@@ -209,7 +213,13 @@ void DrawData::bind_uniform(const ActiveUniform& uniform, const DrawRequest& req
   const std::string wanted = "uniform " + uniform.name + " (" + type_text(type.scalar, type.columns, type.rows) + ")";
   const UniformValue* value = find_named(request.uniforms, uniform.name);
   if (value == nullptr) value = find_named(request.uniforms, uniform.name + "[0]");
-  if (value == nullptr) missing(wanted, names_of(request.uniforms));
+  if (value == nullptr) {
+    // The shader's own value: nothing else is ever set in this program, see ProgramCache.
+    const std::string variable = uniform.name.substr(0, uniform.name.find_first_of(".["));
+    const auto& own = request.initialized;
+    if (std::find(own.begin(), own.end(), variable) != own.end()) return;
+    missing(wanted, names_of(request.uniforms));
+  }
   if (value->scalar != type.scalar || value->columns != type.columns || value->rows != type.rows)
     throw Failure(Outcome::user_error,
                   wanted + " is " + type_text(value->scalar, value->columns, value->rows) + " in the bundle");
@@ -228,6 +238,16 @@ void DrawData::bind_unit(GLint location, GLenum target, GLuint name) {
   gl_.ActiveTexture(GL_TEXTURE0 + GLenum(next_unit_));
   gl_.BindTexture(target, name);
   gl_.Uniform1i(location, next_unit_++);
+}
+
+// Whether texture() goes on across the edges of a cube map (Wrap::repeat) is a state of the whole context.
+void DrawData::filter_edges(const ImageTexture& cube) {
+  const bool seamless = cube.wrap == Wrap::repeat;
+  if (seamless_ && *seamless_ != seamless)
+    throw Failure(Outcome::user_error, "samplerCube " + cube.name +
+                                           " and another one of the shader do not wrap alike; give both the same wrap");
+  seamless_ = seamless;
+  (seamless ? gl_.Enable : gl_.Disable)(GL_TEXTURE_CUBE_MAP_SEAMLESS);
 }
 
 void DrawData::bind_sampler(const ActiveUniform& uniform) {
@@ -257,6 +277,7 @@ void DrawData::bind_sampler(const ActiveUniform& uniform) {
                                              sampler_text(found->kind) + " texture in the bundle");
     gl_.ActiveTexture(GL_TEXTURE0 + GLenum(next_unit_));  // where a new texture may be bound while it is filled
     const GLuint object = texture(*found);
+    if (kind == TextureKind::cube) filter_edges(*found);
     bind_unit(uniform.location + element, target_of(kind), object);
   }
 }
@@ -318,6 +339,16 @@ void DrawData::restore_storage() {
         gl_.BufferSubData(GL_COPY_WRITE_BUFFER, 0, GLsizeiptr(b.size), memory_.data() + b.offset);
       }
   written_.clear();
+}
+
+void DrawData::read_storage(std::byte* to) {
+  for (const ImageBuffer& b : index_.buffers) {
+    if (!b.storage) continue;
+    gl_.BindBuffer(GL_COPY_WRITE_BUFFER, buffer(b));
+    gl_.GetBufferSubData(GL_COPY_WRITE_BUFFER, 0, GLsizeiptr(b.size), to);
+    to += (b.size + 63) / 64 * 64;
+  }
+  check_errors(gl_, "reading storage buffers back");
 }
 
 }  // namespace twinshade::gl

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -18,7 +19,7 @@ class DrawData {
   explicit DrawData(const GlFunctions& gl);
   void replace(ImageIndex index, SharedMemory memory);
 
-  // Pixels that the CPU wrote (Geometry::full_screen), as integer textures.
+  // Pixels that the CPU wrote (Geometry::full_screen; without ids: Geometry::rows), as integer textures.
   void set_cpu_pixels(std::uint32_t width, std::uint32_t height, std::uint32_t components, const std::byte* ids,
                       const std::byte* attributes);
 
@@ -29,6 +30,10 @@ class DrawData {
   // Storage buffers that a draw may have written get the bundle's content back.
   void restore_storage();
 
+  // The storage buffers as they are now, laid out as storage_bytes counts.
+  void read_storage(std::byte* to);
+  const ImageIndex& index() const { return index_; }
+
   std::uint64_t index_count() const { return index_.index_count; }
 
  private:
@@ -36,6 +41,7 @@ class DrawData {
   void bind_uniform(const ActiveUniform& uniform, const DrawRequest& request);
   bool bind_own_uniform(const ActiveUniform& uniform, const DrawRequest& request);
   void bind_sampler(const ActiveUniform& uniform);
+  void filter_edges(const ImageTexture& cube);
   void bind_buffer(const ActiveBlock& block, bool storage, GLuint binding);
   GLuint texture(const ImageTexture& texture);
   GLuint buffer(const ImageBuffer& buffer);
@@ -53,6 +59,7 @@ class DrawData {
   std::set<std::string> written_;  // storage buffers bound since they were last filled
   GLuint cpu_ids_ = 0, cpu_attributes_ = 0;
   GLint next_unit_ = 0;
+  std::optional<bool> seamless_;  // of the cube maps bound so far
   GLint most_buffer_texels_ = 0;
   std::uint32_t enabled_attributes_ = 0;
 };

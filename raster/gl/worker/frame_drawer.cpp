@@ -26,7 +26,7 @@ void FrameDrawer::submit(const DrawRequest& request, const Program& program, Dep
   data_.bind(program, request);
   const auto viewport = [](std::uint32_t size) { return GLsizei(std::bit_ceil(size)); };
   gl_.Viewport(0, 0, viewport(request.width), viewport(request.height));
-  if (request.geometry == Geometry::full_screen) {
+  if (request.geometry == Geometry::full_screen || request.geometry == Geometry::rows) {
     gl_.Disable(GL_DEPTH_TEST);
     gl_.DrawArrays(GL_TRIANGLES, 0, 3);
     return;
@@ -42,8 +42,8 @@ void FrameDrawer::submit(const DrawRequest& request, const Program& program, Dep
 
 // A frame as a program draws it: clears, drawing, and waiting until all is done.
 double FrameDrawer::timed_milliseconds(const DrawRequest& request) {
-  const Program& program = programs_.get(request.timed);
-  const Program* prepass = request.prepass_wanted ? &programs_.get(request.prepass) : nullptr;
+  const Program& program = programs_.get(request.timed, request.initialized);
+  const Program* prepass = request.prepass_wanted ? &programs_.get(request.prepass, request.initialized) : nullptr;
   std::vector<double> samples;
   for (int i = 0; i < request.warmup + request.repeat; ++i) {
     data_.restore_storage();
@@ -62,43 +62,59 @@ double FrameDrawer::timed_milliseconds(const DrawRequest& request) {
   return median(samples);
 }
 
-void FrameDrawer::capture(const DrawRequest& request, std::byte* planes) {
+void FrameDrawer::capture(const DrawRequest& request, std::uint32_t components, std::byte* planes) {
   const std::size_t pixels = std::size_t(request.width) * request.height;
   std::vector<std::uint32_t> texels(pixels * 4);
   auto* const plane = reinterpret_cast<std::uint32_t*>(planes);
   std::uint32_t component = 0;
   for (const ProgramText& text : request.captures) {
-    const std::uint32_t targets = std::min(kCaptureTargets, (request.components - component + 3) / 4);
+    const std::uint32_t targets = std::min(kCaptureTargets, (components - component + 3) / 4);
     data_.restore_storage();
-    const Program& program = programs_.get(text);
+    const Program& program = programs_.get(text, request.initialized);
     targets_->begin_capture(targets);
     submit(request, program, Depth::less);
     gl_.Finish();
-    check_errors(gl_, "capturing attributes");
+    check_errors(gl_, "capturing values");
     for (std::uint32_t target = 0; target < targets; ++target) {
       targets_->read_capture(target, texels.data());
-      for (std::uint32_t c = 0; c < 4 && component < request.components; ++c, ++component)
+      for (std::uint32_t c = 0; c < 4 && component < components; ++c, ++component)
         for (std::size_t p = 0; p < pixels; ++p) plane[component * pixels + p] = texels[p * 4 + c];
     }
   }
 }
 
+void FrameDrawer::make_targets(const DrawRequest& request) {
+  if (targets_ && targets_->fits(request.width, request.height)) return;
+  targets_.reset();
+  targets_ = std::make_unique<RenderTargets>(gl_, request.width, request.height);
+}
+
+DrawReply FrameDrawer::draw_rows(const DrawRequest& request, const SharedMemory& rows) {
+  const std::size_t pixels = std::size_t(request.width) * request.height;
+  const FrameLayout layout = row_layout(pixels, request.components, request.results);
+  if (rows.size() < layout.size) throw std::runtime_error("the shared rows are too small");
+  make_targets(request);
+  data_.set_cpu_pixels(request.width, request.height, request.components, nullptr, rows.data() + layout.cpu_attributes);
+  data_.bind_geometry(request);
+  capture(request, request.results, rows.data() + layout.attributes);
+  check_errors(gl_, "reading results back");
+  return {};
+}
+
 DrawReply FrameDrawer::draw(const DrawRequest& request, const SharedMemory& frame) {
+  if (request.geometry == Geometry::rows) return draw_rows(request, frame);
   const bool full_screen = request.geometry == Geometry::full_screen;
   const std::size_t pixels = std::size_t(request.width) * request.height;
   const FrameLayout layout = frame_layout(pixels, request.components, full_screen);
   if (frame.size() < layout.size) throw std::runtime_error("the shared frame is too small");
-  if (!targets_ || !targets_->fits(request.width, request.height)) {
-    targets_.reset();
-    targets_ = std::make_unique<RenderTargets>(gl_, request.width, request.height);
-  }
+  make_targets(request);
   if (full_screen)
     data_.set_cpu_pixels(request.width, request.height, request.components, frame.data() + layout.cpu_id,
                          frame.data() + layout.cpu_attributes);
   data_.bind_geometry(request);
 
   DrawReply reply;
-  const Program& program = programs_.get(request.frame);
+  const Program& program = programs_.get(request.frame, request.initialized);
   if (request.timing) reply.milliseconds = {{"draw", timed_milliseconds(request)}};
 
   data_.restore_storage();
@@ -114,8 +130,23 @@ DrawReply FrameDrawer::draw(const DrawRequest& request, const SharedMemory& fram
   if (!full_screen) targets_->read_depth(frame.data() + layout.depth);
   check_errors(gl_, "reading the frame back");
 
-  if (!request.captures.empty()) capture(request, frame.data() + layout.attributes);
+  if (!request.captures.empty()) capture(request, request.components, frame.data() + layout.attributes);
   check_errors(gl_, "reading attributes back");
+  return reply;
+}
+
+DrawReply FrameDrawer::dispatch(const DrawRequest& request, const SharedMemory& storage) {
+  if (storage.size() < storage_bytes(data_.index())) throw std::runtime_error("the shared memory is too small");
+  data_.restore_storage();
+  data_.bind(programs_.get(request.frame, request.initialized), request);
+  const auto start = Clock::now();
+  gl_.DispatchCompute(request.groups[0], request.groups[1], request.groups[2]);
+  gl_.MemoryBarrier(GL_ALL_BARRIER_BITS);
+  gl_.Finish();
+  DrawReply reply;
+  reply.milliseconds = {{"dispatch", milliseconds_since(start)}};
+  check_errors(gl_, "running the compute shader");
+  data_.read_storage(storage.data());
   return reply;
 }
 

@@ -35,6 +35,7 @@ namespace twinshade::gl {
   X(DepthMask, DEPTHMASK)                                 \
   X(Disable, DISABLE)                                     \
   X(DisableVertexAttribArray, DISABLEVERTEXATTRIBARRAY)   \
+  X(DispatchCompute, DISPATCHCOMPUTE)                     \
   X(DrawArrays, DRAWARRAYS)                               \
   X(DrawBuffers, DRAWBUFFERS)                             \
   X(DrawElements, DRAWELEMENTS)                           \
@@ -49,6 +50,7 @@ namespace twinshade::gl {
   X(GetActiveUniform, GETACTIVEUNIFORM)                   \
   X(GetActiveUniformBlockName, GETACTIVEUNIFORMBLOCKNAME) \
   X(GetActiveUniformBlockiv, GETACTIVEUNIFORMBLOCKIV)     \
+  X(GetBufferSubData, GETBUFFERSUBDATA)                   \
   X(GetError, GETERROR)                                   \
   X(GetIntegerv, GETINTEGERV)                             \
   X(GetProgramInfoLog, GETPROGRAMINFOLOG)                 \
@@ -61,6 +63,7 @@ namespace twinshade::gl {
   X(GetString, GETSTRING)                                 \
   X(GetUniformLocation, GETUNIFORMLOCATION)               \
   X(LinkProgram, LINKPROGRAM)                             \
+  X(MemoryBarrier, MEMORYBARRIER)                         \
   X(PixelStorei, PIXELSTOREI)                             \
   X(ReadBuffer, READBUFFER)                               \
   X(ReadPixels, READPIXELS)                               \

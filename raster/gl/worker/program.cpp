@@ -48,14 +48,22 @@ bool drop_first_element(std::string& name) {
 }  // namespace
 
 Program::Program(const GlFunctions& gl, const ProgramText& text) : gl_(gl) {
-  const Shader vertex(gl, GL_VERTEX_SHADER, text.vertex);
-  if (!vertex.compiled()) throw std::runtime_error("the driver rejects the generated vertex shader: " + vertex.log());
-  const Shader fragment(gl, GL_FRAGMENT_SHADER, text.fragment);
-  if (!fragment.compiled()) throw Failure(Outcome::glsl_error, fragment.log());
-  id_ = gl.CreateProgram();
-  gl.AttachShader(id_, vertex.id());
-  gl.AttachShader(id_, fragment.id());
-  gl.LinkProgram(id_);
+  if (text.compute.empty()) {
+    const Shader vertex(gl, GL_VERTEX_SHADER, text.vertex);
+    if (!vertex.compiled()) throw std::runtime_error("the driver rejects the generated vertex shader: " + vertex.log());
+    const Shader fragment(gl, GL_FRAGMENT_SHADER, text.fragment);
+    if (!fragment.compiled()) throw Failure(Outcome::glsl_error, fragment.log());
+    id_ = gl.CreateProgram();
+    gl.AttachShader(id_, vertex.id());
+    gl.AttachShader(id_, fragment.id());
+    gl.LinkProgram(id_);
+  } else {
+    const Shader compute(gl, GL_COMPUTE_SHADER, text.compute);
+    if (!compute.compiled()) throw Failure(Outcome::glsl_error, compute.log());
+    id_ = gl.CreateProgram();
+    gl.AttachShader(id_, compute.id());
+    gl.LinkProgram(id_);
+  }
   GLint linked = 0;
   gl.GetProgramiv(id_, GL_LINK_STATUS, &linked);
   if (linked == 0) {
@@ -111,8 +119,9 @@ void Program::find_blocks() {
   }
 }
 
-const Program& ProgramCache::get(const ProgramText& text) {
-  const std::string key = text.vertex + '\0' + text.fragment;
+const Program& ProgramCache::get(const ProgramText& text, const std::vector<std::string>& untouched) {
+  std::string key = text.vertex + '\0' + text.fragment + '\0' + text.compute;
+  for (const std::string& name : untouched) key += '\0' + name;
   if (const auto found = programs_.find(key); found != programs_.end()) return *found->second;
   auto program = std::make_unique<Program>(gl_, text);
   if (programs_.size() >= kMostPrograms) programs_.clear();

@@ -27,8 +27,8 @@ struct ActiveBlock {
 
 class Program {
  public:
-  // Failure glsl_error with the log where the fragment shader is rejected; std::runtime_error where our vertex shader
-  // is or the two do not link.
+  // Failure glsl_error with the log where the fragment or compute shader is rejected; std::runtime_error where our
+  // vertex shader is or the two do not link.
   Program(const GlFunctions& gl, const ProgramText& text);
   ~Program();
   Program(const Program&) = delete;
@@ -48,11 +48,12 @@ class Program {
   std::vector<ActiveBlock> uniform_blocks_, storage_blocks_;
 };
 
-// Compiled programs by their text.
+// Compiled programs by their text and by which uniforms keep the values that the shader gives them: a program never
+// forgets what was set.
 class ProgramCache {
  public:
   explicit ProgramCache(const GlFunctions& gl) : gl_(gl) {}
-  const Program& get(const ProgramText& text);
+  const Program& get(const ProgramText& text, const std::vector<std::string>& untouched);
 
  private:
   const GlFunctions& gl_;

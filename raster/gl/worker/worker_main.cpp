@@ -56,7 +56,7 @@ int serve(GlBackend backend) {
       if (request.new_image)
         drawer.data().replace(request.image, SharedMemory::map(std::move(message.descriptors.at(next++))));
       if (next < message.descriptors.size()) frame = SharedMemory::map(std::move(message.descriptors[next]));
-      reply = drawer.draw(request, frame);
+      reply = request.frame.compute.empty() ? drawer.draw(request, frame) : drawer.dispatch(request, frame);
       reply.provenance = context->provenance();
     } catch (const Failure& error) {
       reply = failure(error.outcome, error.what());

@@ -1,0 +1,299 @@
+#include "check/check_shader.h"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <deque>
+#include <filesystem>
+
+#include "base/error.h"
+#include "check/shrink.h"
+#include "cpu_shaders/rewrite/frag_coord.h"
+#include "cpu_shaders/rewrite/make_exact.h"
+#include "raster/row_grid.h"
+
+namespace twinshade {
+namespace {
+
+class Check {
+ public:
+  Check(Evaluator& evaluator, const std::string& path, const CheckOptions& options)
+      : evaluator_(evaluator), options_(options) {
+    result_.path = path;
+  }
+
+  // What is to be compiled; null where the shader is refused.
+  const ShaderSource* load() {
+    return guarded([this] { read(); }) ? &source_ : nullptr;
+  }
+
+  CheckedShader run() {
+    if (!result_.message.empty()) return std::move(result_);
+    guarded([this] {
+      generate();
+      compare();
+      if (const BackendCheck* differing = first_differing()) explain_guarded(*differing);
+      if (options_.timing) time();
+    });
+    return std::move(result_);
+  }
+
+ private:
+  bool guarded(const std::function<void()>& step) {
+    try {
+      step();
+      return true;
+    } catch (const UserError& error) {
+      result_.verdict = Verdict::refused;
+      result_.message = error.what();
+    } catch (const BackendError& error) {  // of the machine that the others are compared with
+      result_.verdict = Verdict::not_run;
+      result_.message = error.what();
+    }
+    return false;
+  }
+
+  void read() {
+    source_ = load_shader(result_.path, options_.include_folders);
+    result_.files = source_.files;
+    ranges_ = declared_ranges(source_);
+    std::string side_file = options_.inputs_file;
+    std::error_code code;
+    if (side_file.empty() && std::filesystem::exists(result_.path + ".inputs", code))
+      side_file = result_.path + ".inputs";
+    if (!side_file.empty())
+      for (InputRange& range : ranges_in_file(side_file)) ranges_.push_back(std::move(range));
+    if (options_.make_exact) {
+      ExactShader exact = make_exact(source_);
+      source_ = std::move(exact.source);
+      result_.findings = std::move(exact.left);
+      if (exact.uses_zero) ranges_.push_back(zero());
+    } else {
+      result_.findings = lint(source_);
+    }
+  }
+
+  void generate() {
+    const Reflection& reflection = evaluator_.reflection(source_);
+    uses_frag_coord_ = reflection.uses_frag_coord;
+    group_ = reflection.uses_derivatives ? 4 : 1;
+    table_ = generate_rows(reflection, ranges_, options_.generate);
+  }
+
+  static InputRange zero() {
+    InputRange range;
+    range.name = kExactZero;
+    range.kind = InputRange::Kind::list;
+    range.values = {0.0};
+    return range;
+  }
+
+  void compare() {
+    const EvaluatedRows reference = evaluator_.run(source_, table_, options_.on[0]);
+    result_.backends.push_back({options_.on[0], "", {}, 0});
+    std::size_t compared = 0;
+    bool bits_differ = false;
+    for (std::size_t i = 1; i < options_.on.size(); ++i) {
+      BackendCheck check{options_.on[i], "", {}, 0};
+      try {
+        const EvaluatedRows rows = evaluator_.run(source_, table_, options_.on[i]);
+        check.comparison = compare_with(reference, rows, source_, table_, options_.on[i]);
+        ++compared;
+        bits_differ |= !check.comparison.rows.empty();
+        result_.max_ulp = std::max(result_.max_ulp, check.comparison.max_ulp);
+      } catch (const BackendError& error) {
+        check.not_run = error.what();
+      }
+      result_.backends.push_back(std::move(check));
+    }
+    result_.verdict = compared == 0                     ? Verdict::not_run
+                      : !bits_differ                    ? Verdict::same_bits
+                      : result_.max_ulp <= options_.ulp ? Verdict::same_to_ulp
+                                                        : Verdict::differs;
+    if (compared == 0)
+      result_.message = result_.backends.size() < 2 ? "there is nothing to compare with" : result_.backends[1].not_run;
+  }
+
+  const BackendCheck* first_differing() const {
+    for (const BackendCheck& check : result_.backends)
+      if (!check.comparison.rows.empty()) return &check;
+    return nullptr;
+  }
+
+  // Rows of a table in groups: whether the two machines differ in each by more than flushed denormals.
+  std::vector<bool> differs(const ShaderSource& source, const ValueTable& table, const EvaluationTarget& other) {
+    std::vector<bool> groups(table.rows / group_);
+    for (const std::size_t row : compare(source, table, other).rows) groups[row / group_] = true;
+    return groups;
+  }
+
+  RowComparison compare(const ShaderSource& source, const ValueTable& table, const EvaluationTarget& other) {
+    return compare_with(evaluator_.run(source, table, options_.on[0]), evaluator_.run(source, table, other), source,
+                        table, other);
+  }
+
+  // softpipe keeps the denormals that the others flush: there the CPU keeps them too.
+  EvaluationTarget reference_for(const EvaluationTarget& other) const {
+    EvaluationTarget target = options_.on[0];
+    target.keep_denormals = target.backend == Backend::cpu && other.backend == Backend::softpipe;
+    return target;
+  }
+
+  RowComparison compare_with(const EvaluatedRows& reference, const EvaluatedRows& rows, const ShaderSource& source,
+                             const ValueTable& table, const EvaluationTarget& other) {
+    if (other.backend != Backend::softpipe) return compare_rows(reference, rows);
+    if (options_.on[0].backend != Backend::cpu) return compare_rows(reference, rows, rows_with_denormals(table));
+    return compare_rows(evaluator_.run(source, table, reference_for(other)), rows);
+  }
+
+  // The verdict stands, whatever goes wrong here.
+  void explain_guarded(const BackendCheck& differing) {
+    try {
+      explain(differing);
+    } catch (const BackendError& error) {
+      if (result_.counterexample) result_.counterexample->first_line.note = error.what();
+    }
+  }
+
+  void explain(const BackendCheck& differing) {
+    Counterexample example;
+    example.a = options_.on[0].backend;
+    example.b = differing.target.backend;
+    example.difference = *differing.comparison.first;
+    const std::size_t row = example.difference.row, first = row / group_ * group_;
+    std::vector<std::size_t> rows;
+    for (std::size_t r = first; r < first + group_; ++r) rows.push_back(std::min(r, table_.rows - 1));
+    example.row = row - first;
+    example.values = select_rows(table_, rows);
+    ShaderSource source = source_;
+    if (uses_frag_coord_) {  // a row keeps its place while it is moved about
+      source = frag_coord_as_input(source_);
+      add_frag_coord(example.values, rows);
+    }
+    const Differs test = [&](const ValueTable& table) { return differs(source, table, differing.target); };
+    if (!test(example.values)[0]) {
+      example.first_line.note = "the difference is not there when this input is run alone";
+      result_.counterexample = std::move(example);
+      return;
+    }
+    example.values = shrink(example.values, ranges_, test);
+    const RowComparison shrunk = compare(source, example.values, differing.target);
+    if (shrunk.first) {
+      example.difference = *shrunk.first;
+      example.row = shrunk.first->row;
+    }
+    result_.counterexample = std::move(example);
+    look_inside(source, differing.target, *result_.counterexample);
+  }
+
+  void look_inside(const ShaderSource& source, const EvaluationTarget& other, Counterexample& example) {
+    try {
+      example.first_line =
+          first_differing_line(evaluator_, source, example.values, example.row, reference_for(other), other);
+    } catch (const UserError& error) {
+      example.first_line.note = std::string("cannot be looked for: ") + error.what();
+    }
+    example.constant_folding = by_constant_folding(source, example.values, other);
+  }
+
+  // Rows lie on the grid among those that share their uniforms.
+  std::size_t place_on_grid(std::size_t row) const {
+    std::size_t place = 0;
+    for (std::size_t before = 0; before < row; ++before) {
+      const bool same = std::all_of(table_.uniforms.begin(), table_.uniforms.end(), [&](const Values& values) {
+        const auto begin = values.bits.begin();
+        const auto n = std::ptrdiff_t(values.type.components());
+        return values.row_count() == 1 ||
+               std::equal(begin + std::ptrdiff_t(before) * n, begin + std::ptrdiff_t(before + 1) * n,
+                          begin + std::ptrdiff_t(row) * n);
+      });
+      if (same) ++place;
+    }
+    return place;
+  }
+
+  void add_frag_coord(ValueTable& values, const std::vector<std::size_t>& rows) const {
+    Values coord;
+    coord.name = kRowFragCoord;
+    coord.type.rows = 4;
+    for (const std::size_t row : rows) {
+      const auto [x, y] = grid_pixel(place_on_grid(row));
+      for (const float c : {float(x) + 0.5f, float(y) + 0.5f, 0.5f, 1.0f})
+        coord.bits.push_back(std::bit_cast<std::uint32_t>(c));
+    }
+    values.inputs.push_back(std::move(coord));
+  }
+
+  // Whether the machines agree once neither compiler folds constants.
+  bool by_constant_folding(const ShaderSource& source, ValueTable values, const EvaluationTarget& other) {
+    if (options_.make_exact) return false;
+    try {
+      const ExactShader unfolded = make_exact(source, ExactScope::constants);
+      return unfolded.changed && !differs(unfolded.source, values, other)[0];
+    } catch (const UserError&) {
+      return false;  // the rewritten shader is none: nothing is known
+    }
+  }
+
+  // By the difference between many rows and few, which leaves the cost of starting out.
+  void time() {
+    constexpr std::size_t kMany = 16384;
+    std::vector<std::size_t> many, few;
+    for (std::size_t i = 0; i < kMany; ++i) many.push_back(i % std::min<std::size_t>(table_.rows, 256));
+    few.assign(many.begin(), many.begin() + 256);
+    const ValueTable large = select_rows(one_uniform_set(), many), small = select_rows(one_uniform_set(), few);
+    for (BackendCheck& check : result_.backends) {
+      if (!check.not_run.empty()) continue;
+      const double seconds = fastest(large, check.target) - fastest(small, check.target);
+      check.ns_per_invocation = std::max(0.0, seconds) * 1e9 / double(kMany - few.size());
+    }
+  }
+
+  ValueTable one_uniform_set() const {
+    ValueTable table = table_;
+    for (Values& values : table.uniforms) values.bits.resize(values.type.components());
+    return table;
+  }
+
+  double fastest(const ValueTable& table, const EvaluationTarget& target) {
+    double best = 1e9;
+    for (int run = 0; run < 3; ++run) {
+      const auto start = std::chrono::steady_clock::now();
+      evaluator_.run(source_, table, target);
+      best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    }
+    return best;
+  }
+
+  Evaluator& evaluator_;
+  const CheckOptions& options_;
+  ShaderSource source_;
+  std::vector<InputRange> ranges_;
+  ValueTable table_;
+  std::size_t group_ = 1;  // rows that belong together: a quad where derivatives are taken
+  bool uses_frag_coord_ = false;
+  CheckedShader result_;
+};
+
+}  // namespace
+
+std::vector<CheckedShader> check_shaders(Evaluator& evaluator, const std::vector<std::string>& paths,
+                                         const CheckOptions& options, const CheckProgress& progress) {
+  std::deque<Check> checks;
+  std::vector<ShaderSource> sources;
+  for (const std::string& path : paths) {
+    checks.emplace_back(evaluator, path, options);
+    if (const ShaderSource* source = checks.back().load()) sources.push_back(*source);
+  }
+  evaluator.prepare(sources, options.on);
+  std::vector<CheckedShader> results;
+  for (Check& check : checks) {
+    if (progress) progress(results.size());
+    const auto start = std::chrono::steady_clock::now();
+    results.push_back(check.run());
+    results.back().seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  return results;
+}
+
+}  // namespace twinshade

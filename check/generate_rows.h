@@ -1,0 +1,24 @@
+// Tables of values to run a shader over: reproducible from a seed, special values among them.
+#pragma once
+
+#include <cstdint>
+
+#include "check/input_ranges.h"
+#include "cpu_shaders/translate/translate.h"
+#include "evaluate/values.h"
+
+namespace twinshade {
+
+struct GenerateOptions {
+  std::size_t rows = 2048;
+  std::uint64_t seed = 1;
+};
+
+// Uniforms keep their values for an eighth of the rows. In the first quarter of the rows one input at a time is
+// special, in the second every component is with a chance of one half, the rest is random (docs/check.md lists what is
+// special). Samplers get 16 x 16 random texels. UserError for a range of a name that the shader does not have, of more
+// components than it has, or that its type cannot hold.
+ValueTable generate_rows(const Reflection& reflection, const std::vector<InputRange>& ranges,
+                         const GenerateOptions& options);
+
+}  // namespace twinshade

@@ -1,0 +1,106 @@
+#include "check/input_ranges.h"
+
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/file.h"
+
+namespace twinshade {
+namespace {
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> words;
+  for (std::string word; in >> word;) words.push_back(word);
+  return words;
+}
+
+double number(const std::string& text, const std::string& where) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+    throw UserError(where + "\"" + text + "\" is no finite number");
+  return value;
+}
+
+// NAME 0..1 | NAME -1..1 0..2 0..2 | NAME {0, 1, 2} | NAME unit|finite|any
+InputRange range_of(const std::string& text, const std::string& where) {
+  const std::vector<std::string> words = words_of(text);
+  if (words.size() < 2)
+    throw UserError(where + "an input range is NAME LOW..HIGH, NAME {A, B}, or NAME unit|finite|any");
+  InputRange range;
+  range.name = words[0];
+  range.where = where;
+  if (words[1][0] == '{') {
+    const std::size_t open = text.find('{'), close = text.rfind('}');
+    if (close == std::string::npos) throw UserError(where + "the list of values lacks its }");
+    std::string list = text.substr(open + 1, close - open - 1);
+    for (char& c : list)
+      if (c == ',') c = ' ';
+    range.kind = InputRange::Kind::list;
+    for (const std::string& word : words_of(list)) range.values.push_back(number(word, where));
+    if (range.values.empty()) throw UserError(where + "the list of values is empty");
+    return range;
+  }
+  if (words[1] == "unit" || words[1] == "finite" || words[1] == "any") {
+    range.kind = words[1] == "unit"     ? InputRange::Kind::unit
+                 : words[1] == "finite" ? InputRange::Kind::finite
+                                        : InputRange::Kind::any;
+    return range;
+  }
+  for (std::size_t i = 1; i < words.size() && words[i].find("..") != std::string::npos; ++i) {
+    const std::size_t dots = words[i].find("..");
+    const double low = number(words[i].substr(0, dots), where), high = number(words[i].substr(dots + 2), where);
+    if (low > high) throw UserError(where + words[i] + ": the lower end comes first");
+    range.intervals.emplace_back(low, high);
+  }
+  if (range.intervals.empty())
+    throw UserError(where + "\"" + words[1] + "\" is no range: LOW..HIGH, {A, B}, unit, finite or any");
+  return range;
+}
+
+}  // namespace
+
+std::vector<InputRange> declared_ranges(const ShaderSource& source) {
+  std::vector<InputRange> ranges;
+  std::istringstream lines(source.text);
+  std::string file = source.files.empty() ? source.name : source.files[0];
+  int number_of_line = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number_of_line;
+    if (line.rfind("#line ", 0) == 0) {
+      number_of_line = std::stoi(line.substr(6)) - 1;
+      const std::size_t open = line.find('"'), close = line.rfind('"');
+      if (close != open) file = line.substr(open + 1, close - open - 1);
+      continue;
+    }
+    const std::size_t comment = line.find("//");
+    const std::size_t tag = comment == std::string::npos ? comment : line.find("@input", comment);
+    if (tag == std::string::npos || line.find_first_not_of("/ \t", comment) != tag) continue;
+    ranges.push_back(range_of(line.substr(tag + 6), file + ":" + std::to_string(number_of_line) + ": "));
+  }
+  return ranges;
+}
+
+std::vector<InputRange> ranges_in_file(const std::string& path) {
+  std::vector<InputRange> ranges;
+  std::istringstream lines(read_file(path));
+  int number_of_line = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number_of_line;
+    line = line.substr(0, line.find('#'));
+    if (words_of(line).empty()) continue;
+    ranges.push_back(range_of(line, path + ":" + std::to_string(number_of_line) + ": "));
+  }
+  return ranges;
+}
+
+const InputRange* find_range(const std::vector<InputRange>& ranges, const std::string& name) {
+  for (auto range = ranges.rbegin(); range != ranges.rend(); ++range)
+    if (range->name == name) return &*range;
+  return nullptr;
+}
+
+}  // namespace twinshade

@@ -1,0 +1,193 @@
+#include "check/shrink.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <optional>
+
+namespace twinshade {
+namespace {
+
+constexpr int kMostRounds = 16;
+
+// One scalar of a table.
+struct Slot {
+  bool uniform = false;
+  std::size_t variable = 0, index = 0;
+};
+
+struct Change {
+  Slot slot;
+  std::uint32_t bits = 0;
+  int gain = 0;
+};
+
+Values& variable_at(ValueTable& table, const Slot& slot) {
+  return slot.uniform ? table.uniforms[slot.variable] : table.inputs[slot.variable];
+}
+
+std::vector<std::uint32_t> simpler_values(Scalar scalar, std::uint32_t bits) {
+  if (scalar != Scalar::f32) {
+    const auto value = std::int32_t(bits);
+    return {0u, 1u, std::uint32_t(value / 2), std::uint32_t(value - (value > 0 ? 1 : value < 0 ? -1 : 0))};
+  }
+  std::vector<std::uint32_t> values;
+  const auto value = std::bit_cast<float>(bits);
+  for (const float simple : {0.0f, 1.0f, 2.0f, 0.5f, 3.0f, -1.0f, -value, std::trunc(value), std::round(value)})
+    values.push_back(std::bit_cast<std::uint32_t>(simple));
+  for (const int kept : {0, 1, 2, 3, 4, 6, 8, 10, 12, 15, 18, 20, 22})  // bits of the fraction
+    values.push_back(bits & ~((1u << (23 - kept)) - 1u));
+  return values;
+}
+
+bool allowed(const InputRange* range, const ValueType& type, std::size_t index, std::uint32_t bits) {
+  if (range == nullptr) return true;
+  const double value = type.scalar == Scalar::f32 ? std::bit_cast<float>(bits) : std::int32_t(bits);
+  switch (range->kind) {
+    case InputRange::Kind::unit:
+      return false;
+    case InputRange::Kind::list:
+      return std::find(range->values.begin(), range->values.end(), value) != range->values.end();
+    case InputRange::Kind::interval: {
+      const auto& [low, high] = range->intervals[range->intervals.size() == 1 ? 0 : index % type.rows];
+      return value >= low && value <= high;
+    }
+    default:
+      return true;
+  }
+}
+
+class Shrinker {
+ public:
+  Shrinker(const ValueTable& failing, const std::vector<InputRange>& ranges, const Differs& differs)
+      : current_(failing), ranges_(ranges), differs_(differs) {
+    for (const bool uniform : {false, true}) {
+      const std::vector<Values>& list = uniform ? failing.uniforms : failing.inputs;
+      for (std::size_t v = 0; v < list.size(); ++v)
+        for (std::size_t i = 0; i < list[v].bits.size(); ++i) slots_.push_back({uniform, v, i});
+    }
+  }
+
+  ValueTable run() {
+    for (int round = 0; round < kMostRounds && step(); ++round) {
+    }
+    return current_;
+  }
+
+ private:
+  std::vector<Change> changes() {
+    std::vector<Change> found;
+    for (const Slot& slot : slots_) {
+      const Values& values = variable_at(current_, slot);
+      const Scalar scalar = values.type.scalar;
+      const std::uint32_t bits = values.bits[slot.index];
+      const InputRange* range = find_range(ranges_, values.name);
+      for (const std::uint32_t simpler : simpler_values(scalar, bits)) {
+        const int gain = complexity(scalar, bits) - complexity(scalar, simpler);
+        if (gain > 0 && allowed(range, values.type, slot.index, simpler)) found.push_back({slot, simpler, gain});
+      }
+    }
+    return found;
+  }
+
+  // Copies of the current rows one behind another, each with some changes.
+  ValueTable candidates(const std::vector<std::vector<Change>>& lists) {
+    ValueTable table = current_;
+    table.rows = current_.rows * lists.size();
+    for (const bool uniform : {false, true}) {
+      std::vector<Values>& list = uniform ? table.uniforms : table.inputs;
+      for (Values& values : list) {
+        std::vector<std::uint32_t> row = values.bits;
+        if (uniform && values.row_count() == 1) {  // one for all rows until now
+          values.bits.clear();
+          for (std::size_t r = 0; r < current_.rows; ++r) values.bits.insert(values.bits.end(), row.begin(), row.end());
+          row = values.bits;
+        }
+        values.bits.clear();
+        for (std::size_t k = 0; k < lists.size(); ++k) values.bits.insert(values.bits.end(), row.begin(), row.end());
+      }
+    }
+    for (std::size_t k = 0; k < lists.size(); ++k)
+      for (const Change& change : lists[k]) write(table, k, change);
+    return table;
+  }
+
+  // A uniform's value goes to all rows of its group.
+  void write(ValueTable& table, std::size_t group, const Change& change) const {
+    Values& values = change.slot.uniform ? table.uniforms[change.slot.variable] : table.inputs[change.slot.variable];
+    const std::size_t components = values.type.components();
+    if (!change.slot.uniform) {
+      values.bits[group * current_.rows * components + change.slot.index] = change.bits;
+      return;
+    }
+    for (std::size_t r = 0; r < current_.rows; ++r)
+      values.bits[(group * current_.rows + r) * components + change.slot.index % components] = change.bits;
+  }
+
+  bool step() {
+    std::vector<std::vector<Change>> single;
+    for (const Change& change : changes()) single.push_back({change});
+    if (single.empty()) return false;
+    const std::vector<bool> alone = differs_(candidates(single));
+
+    // The best change of each place that works alone, largest gain first; then as many of them together as work.
+    std::vector<Change> good;
+    for (std::size_t k = 0; k < single.size(); ++k) {
+      if (!alone[k]) continue;
+      const Change& change = single[k][0];
+      const auto same_place = std::find_if(good.begin(), good.end(), [&](const Change& g) {
+        return g.slot.uniform == change.slot.uniform && g.slot.variable == change.slot.variable &&
+               g.slot.index == change.slot.index;
+      });
+      if (same_place == good.end())
+        good.push_back(change);
+      else if (change.gain > same_place->gain)
+        *same_place = change;
+    }
+    if (good.empty()) return false;
+    std::stable_sort(good.begin(), good.end(), [](const Change& a, const Change& b) { return a.gain > b.gain; });
+    std::vector<std::vector<Change>> together;
+    for (std::size_t n = 1; n <= good.size(); ++n)
+      together.emplace_back(good.begin(), good.begin() + std::ptrdiff_t(n));
+    const std::vector<bool> works = differs_(candidates(together));
+    for (std::size_t n = together.size(); n-- > 0;) {
+      if (!works[n]) continue;
+      for (const Change& change : together[n]) {
+        Values& values = variable_at(current_, change.slot);
+        const std::size_t components = values.type.components();
+        for (std::size_t i = change.slot.index % components; i < values.bits.size(); i += components)
+          if (change.slot.uniform || i == change.slot.index) values.bits[i] = change.bits;
+      }
+      return true;
+    }
+    return false;
+  }
+
+  ValueTable current_;
+  const std::vector<InputRange>& ranges_;
+  const Differs& differs_;
+  std::vector<Slot> slots_;
+};
+
+}  // namespace
+
+int complexity(Scalar scalar, std::uint32_t bits) {
+  if (bits == 0) return 0;
+  if (scalar == Scalar::f32 && bits == 0x80000000u) return 1;
+  if (scalar != Scalar::f32) {
+    const auto value = std::int32_t(bits);
+    return (value < 0 ? 1 : 0) + int(std::bit_width(std::uint32_t(std::abs(std::int64_t(value)))));
+  }
+  const int sign = bits >> 31 != 0 ? 1 : 0, exponent = int(bits >> 23 & 255u);
+  const std::uint32_t fraction = bits & 0x7fffffu;
+  if (exponent == 255) return 3 + sign;
+  const int digits = fraction == 0 ? 0 : 23 - std::countr_zero(fraction);
+  return 1 + sign + 2 * digits + std::abs(exponent - 127) / 2;
+}
+
+ValueTable shrink(const ValueTable& failing, const std::vector<InputRange>& ranges, const Differs& differs) {
+  return Shrinker(failing, ranges, differs).run();
+}
+
+}  // namespace twinshade

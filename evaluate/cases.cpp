@@ -1,0 +1,232 @@
+#include "evaluate/cases.h"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/names.h"
+
+namespace twinshade {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int kDeepestValue = 4;  // row, array element, column, component
+
+std::vector<std::string> every_type_name() {
+  std::vector<std::string> names;
+  for (int scalar = 0; scalar < 4; ++scalar)
+    for (std::uint32_t rows = 1; rows <= 4; ++rows) names.push_back(type_name({Scalar(scalar), 1, rows, 0}));
+  for (std::uint32_t columns = 2; columns <= 4; ++columns)
+    for (std::uint32_t rows = 2; rows <= 4; ++rows) names.push_back(type_name({Scalar::f32, columns, rows, 0}));
+  return names;
+}
+
+// "inf", "-inf", "nan", and hex floats as C writes them: what JSON's numbers cannot say.
+std::optional<double> number_in_text(std::string_view text) {
+  const bool negative = text.substr(0, 1) == "-";
+  if (negative) text.remove_prefix(1);
+  const double sign = negative ? -1 : 1;
+  if (text == "inf") return sign * std::numeric_limits<double>::infinity();
+  if (text == "nan") return std::numeric_limits<double>::quiet_NaN();
+  if (text.substr(0, 2) != "0x") return std::nullopt;
+  text.remove_prefix(2);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::hex);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return sign * value;
+}
+
+class CasesReader {
+ public:
+  explicit CasesReader(const std::string& origin) : origin_(origin) {}
+
+  Cases read(std::string_view text) {
+    const Json file = parse(text);
+    require_keys(file, "the file", {"values", "tolerance", "name", "description"});
+    if (!file.contains("values"))
+      fail("no \"values\": the file needs {\"values\": {\"inputs\": [...], \"outputs\": [...]}}");
+    const Json& values = file["values"];
+    require_keys(values, "values", {"inputs", "uniforms", "outputs"});
+    Cases cases;
+    for (Column& column : columns(values, "inputs")) cases.table.inputs.push_back(std::move(column.values));
+    for (Column& column : columns(values, "uniforms")) cases.table.uniforms.push_back(std::move(column.values));
+    for (Column& column : columns(values, "outputs"))
+      cases.expected.push_back({std::move(column.values), std::move(column.has_value)});
+    cases.table.rows = row_count(cases);
+    for (ExpectedOutput& output : cases.expected) require_rows(output.values, "output", cases.table.rows, false);
+    if (file.contains("tolerance")) cases.tolerance = tolerance(file["tolerance"]);
+    return cases;
+  }
+
+ private:
+  struct Column {
+    Values values;
+    std::vector<std::uint8_t> has_value;
+  };
+
+  [[noreturn]] void fail(const std::string& what) const { throw UserError(origin_ + ": " + what); }
+
+  Json parse(std::string_view text) const {
+    try {
+      return Json::parse(text);
+    } catch (const Json::exception& error) {
+      // "[json.exception.parse_error.101] parse error at line 3, column 5: ..."
+      const std::string what = error.what();
+      const std::size_t line = what.find("line "), column = what.find(", column", line),
+                        colon = what.find(": ", column);
+      if (line == std::string::npos || column == std::string::npos || colon == std::string::npos)
+        fail("malformed JSON: " + what.substr(what.find("] ") + 2));
+      throw UserError(origin_ + ":" + what.substr(line + 5, column - line - 5) +
+                      ": malformed JSON: " + what.substr(colon + 2));
+    }
+  }
+
+  void require_keys(const Json& object, const std::string& what, const std::vector<std::string>& keys) const {
+    if (!object.is_object()) fail(what + " must be a JSON object");
+    for (const auto& [key, value] : object.items())
+      if (std::find(keys.begin(), keys.end(), key) == keys.end())
+        fail(unknown_name_message("key", key, keys) + " (in " + what + ")");
+  }
+
+  std::vector<Column> columns(const Json& values, const std::string& kind) const {
+    std::vector<Column> result;
+    if (!values.contains(kind)) return result;
+    const Json& list = values[kind];
+    if (!list.is_array()) fail("values." + kind + " must be a list");
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      result.push_back(column(list[i], "values." + kind + "[" + std::to_string(i) + "]", kind == "outputs"));
+      for (std::size_t k = 0; k < i; ++k)
+        if (result[k].values.name == result[i].values.name)
+          fail("values." + kind + ": " + result[i].values.name + " is there twice");
+    }
+    return result;
+  }
+
+  std::string text_of(const Json& object, const char* key, const std::string& what) const {
+    if (!object.contains(key) || !object[key].is_string()) fail(what + " needs a \"" + key + "\", a string");
+    return object[key].get<std::string>();
+  }
+
+  Column column(const Json& object, std::string what, bool may_be_null) const {
+    require_keys(object, what, {"name", "type", "values"});
+    Column column;
+    Values& values = column.values;
+    values.name = text_of(object, "name", what);
+    what += " (" + values.name + ")";
+    const std::string type = text_of(object, "type", what);
+    const std::optional<ValueType> found = find_type(type);
+    if (!found) {
+      const std::string message = unknown_name_message("type", type, every_type_name());
+      fail(what + ": " + message + "; arrays are written \"vec3[4]\"");
+    }
+    values.type = *found;
+    if (!object.contains("values") || !object["values"].is_array()) fail(what + " needs \"values\", a list of rows");
+    const Json& rows = object["values"];
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      const std::string where = what + ", row " + std::to_string(row);
+      const std::size_t before = values.doubles.size();
+      column.has_value.push_back(!(may_be_null && rows[row].is_null()));
+      if (column.has_value.back())
+        append(values, rows[row], where, 0);
+      else
+        values.bits.resize(before + values.type.components()), values.doubles.resize(before + values.type.components());
+      const std::size_t count = values.doubles.size() - before;
+      if (count != values.type.components())
+        fail(where + ": " + type_name(values.type) + " has " + std::to_string(values.type.components()) +
+             " components, but " + std::to_string(count) + " are given");
+    }
+    return column;
+  }
+
+  // Nested lists are what they hold, one after the other.
+  void append(Values& values, const Json& value, const std::string& where, int depth) const {
+    if (value.is_array()) {
+      if (depth == kDeepestValue) fail(where + ": lists in lists in lists: at most array, column, component");
+      for (const Json& item : value) append(values, item, where, depth + 1);
+      return;
+    }
+    const double number = number_of(value, where);
+    values.doubles.push_back(number);
+    values.bits.push_back(bits_of(number, values.type.scalar, where));
+  }
+
+  double number_of(const Json& value, const std::string& where) const {
+    if (value.is_boolean()) return value.get<bool>() ? 1 : 0;
+    if (value.is_number()) return value.get<double>();
+    if (value.is_string())
+      if (const std::optional<double> number = number_in_text(value.get_ref<const std::string&>())) return *number;
+    fail(where + ": " + value.dump(-1, ' ', false, Json::error_handler_t::replace).substr(0, 40) +
+         " is no value: use numbers, true, false, or the strings \"inf\", \"-inf\", \"nan\", \"0x1.8p+1\"");
+  }
+
+  std::uint32_t bits_of(double value, Scalar scalar, const std::string& where) const {
+    if (scalar == Scalar::f32) {
+      const float rounded = float(value);
+      if (std::isinf(rounded) && !std::isinf(value))
+        fail(where + ": " + std::to_string(value) + " is beyond what a float holds");
+      return std::bit_cast<std::uint32_t>(rounded);
+    }
+    const double least = scalar == Scalar::i32 ? -2147483648.0 : 0;
+    const double most = scalar == Scalar::i32 ? 2147483647.0 : scalar == Scalar::u32 ? 4294967295.0 : 1;
+    if (!(value >= least && value <= most) || value != std::floor(value))
+      fail(where + ": " + Json(value).dump() + " is no " + type_name({scalar, 1, 1, 0}));
+    return scalar == Scalar::i32 ? std::bit_cast<std::uint32_t>(std::int32_t(value)) : std::uint32_t(value);
+  }
+
+  void require_rows(const Values& values, const char* kind, std::size_t rows, bool one_is_enough) const {
+    if (values.row_count() == rows || (one_is_enough && values.row_count() == 1)) return;
+    fail(std::string(kind) + " " + values.name + " has " + std::to_string(values.row_count()) +
+         " rows, but the table has " + std::to_string(rows) + ": row i of every list belongs together");
+  }
+
+  // As many as the longest list has; every input has as many.
+  std::size_t row_count(const Cases& cases) const {
+    std::size_t rows = 1;
+    for (const Values& values : cases.table.inputs) rows = std::max(rows, values.row_count());
+    for (const Values& values : cases.table.uniforms) rows = std::max(rows, values.row_count());
+    for (const ExpectedOutput& output : cases.expected) rows = std::max(rows, output.values.row_count());
+    if (rows > kMostTableRows)
+      fail(std::to_string(rows) + " rows are more than the " + std::to_string(kMostTableRows) +
+           " that a table may have");
+    for (const Values& values : cases.table.inputs) require_rows(values, "input", rows, false);
+    for (const Values& values : cases.table.uniforms) require_rows(values, "uniform", rows, true);
+    return rows;
+  }
+
+  Tolerance tolerance(const Json& object) const {
+    require_keys(object, "tolerance", {"ulp", "abs", "rel"});
+    const auto number = [&](const char* key) {
+      if (!object.contains(key)) return 0.0;
+      const Json& value = object[key];
+      if (!value.is_number() || !(value.get<double>() >= 0))
+        fail(std::string("tolerance.") + key + " must be a number, 0 or more");
+      return value.get<double>();
+    };
+    return {std::uint64_t(std::min(number("ulp"), 4294967295.0)), number("abs"), number("rel")};
+  }
+
+  const std::string& origin_;
+};
+
+}  // namespace
+
+Cases parse_cases(std::string_view json, const std::string& origin) { return CasesReader(origin).read(json); }
+
+void check_expected(const Cases& cases, const std::vector<Values>& outputs, const std::string& origin) {
+  std::vector<std::string> names;
+  for (const Values& output : outputs) names.push_back(output.name);
+  for (const ExpectedOutput& expected : cases.expected) {
+    const Values* output = find_values(outputs, expected.values.name);
+    if (!output) throw UserError(origin + ": " + unknown_name_message("output", expected.values.name, names));
+    if (output->type != expected.values.type)
+      throw UserError(origin + ": output " + output->name + " is " + type_name(output->type) + " in the shader, but " +
+                      type_name(expected.values.type) + " in the cases");
+  }
+}
+
+}  // namespace twinshade

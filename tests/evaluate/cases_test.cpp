@@ -1,0 +1,143 @@
+#include "evaluate/cases.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "evaluate/compare_outputs.h"
+#include "tests/evaluate/tables.h"
+
+using namespace twinshade;
+using test::error_of;
+
+namespace {
+
+std::string refusal(const std::string& json) {
+  return error_of([&] { parse_cases(json, "f.json"); });
+}
+
+// One input of this type and these rows.
+std::string input(const std::string& type, const std::string& rows) {
+  return R"({"values": {"inputs": [{"name": "x", "type": ")" + type + R"(", "values": )" + rows + "}]}}";
+}
+
+Cases expecting(const std::string& type, const std::string& rows, const std::string& tolerance) {
+  return parse_cases(R"({"values": {"outputs": [{"name": "r", "type": ")" + type + R"(", "values": )" + rows +
+                         R"(}]}, "tolerance": )" + tolerance + "}",
+                     "f.json");
+}
+
+std::size_t failures(const Cases& cases, const Values& got) {
+  EvaluatedRows rows;
+  rows.outputs = {got};
+  rows.kept.assign(cases.table.rows, 1);
+  check_expected(cases, rows.outputs, "f.json");
+  return compare_outputs(cases, rows).failures.size();
+}
+
+}  // namespace
+
+TEST_CASE("values are read as GLSL takes them") {
+  const Cases cases = parse_cases(
+      R"({"values": {"inputs": [{"name": "m", "type": "mat2x3", "values": [[[1, 2, 3], [4, 5, 6]], [1, 2, 3, 4, 5, 6]]},
+                                {"name": "i", "type": "int", "values": [-2147483648, [7]]},
+                                {"name": "f", "type": "float", "values": ["-inf", "-0x1.8p-2"]}],
+                     "uniforms": [{"name": "b", "type": "bvec2", "values": [[true, 0]]}, {"name": "n", "type": "float", "values": ["nan"]}],
+                     "outputs": [{"name": "r", "type": "float", "values": [null, 0.1]}]},
+          "tolerance": {"ulp": 3, "rel": 0.5}})",
+      "f.json");
+  CHECK(cases.table.rows == 2);
+  CHECK(value_at(cases.table.inputs[0], 0, 5) == 6);
+  CHECK(value_at(cases.table.inputs[0], 1, 3) == 4);
+  CHECK(value_at(cases.table.inputs[1], 0, 0) == -2147483648.0);
+  CHECK(value_at(cases.table.inputs[2], 0, 0) == -INFINITY);
+  CHECK(value_at(cases.table.inputs[2], 1, 0) == -0.375);
+  CHECK(cases.table.uniforms[0].bits == std::vector<std::uint32_t>{1, 0});
+  CHECK(std::isnan(value_at(cases.table.uniforms[1], 0, 0)));
+  CHECK(cases.expected[0].has_value == std::vector<std::uint8_t>{0, 1});
+  CHECK(cases.expected[0].values.bits[1] == 0x3dcccccdu);
+  CHECK(cases.tolerance.ulp == 3);
+  CHECK(cases.tolerance.rel == 0.5);
+}
+
+TEST_CASE("what is wrong with cases is said in one line") {
+  CHECK(refusal("{\n\"values\": {\n  \"inputs\": [,]\n}}").find("f.json:3: malformed JSON: ") == 0);
+  CHECK(refusal("").find("f.json:1: malformed JSON: ") == 0);
+  CHECK(refusal("[1, 2]") == "f.json: the file must be a JSON object");
+  CHECK(refusal("{}").find("f.json: no \"values\"") == 0);
+  CHECK(refusal(R"({"value": {}})") == "f.json: unknown key 'value'; did you mean 'values'? (in the file)");
+  CHECK(refusal(R"({"values": {"input": []}})") == "f.json: unknown key 'input'; did you mean 'inputs'? (in values)");
+  CHECK(
+      refusal(input("vec33", "[1]")).find("f.json: values.inputs[0] (x): unknown type 'vec33'; did you mean 'vec3'") ==
+      0);
+  CHECK(refusal(input("vec3", "[[1, 2]]")) ==
+        "f.json: values.inputs[0] (x), row 0: vec3 has 3 components, but 2 are given");
+  CHECK(refusal(input("int", "[1, 1.5]")) == "f.json: values.inputs[0] (x), row 1: 1.5 is no int");
+  CHECK(refusal(input("uint", "[-1]")) == "f.json: values.inputs[0] (x), row 0: -1.0 is no uint");
+  CHECK(refusal(input("int", "[\"nan\"]")).find("is no int") != std::string::npos);
+  CHECK(refusal(input("float", "[1e60]")).find("beyond what a float holds") != std::string::npos);
+  CHECK(refusal(input("float", "[1e999]")).find("f.json: malformed JSON") == 0);
+  CHECK(refusal(input("float", "[{}]")).find("row 0: {} is no value") != std::string::npos);
+  CHECK(refusal(input("float", "[null]")).find("row 0: null is no value") != std::string::npos);
+  CHECK(refusal(input("float", std::string(100000, '[') + std::string(100000, ']'))).find("lists in lists") !=
+        std::string::npos);
+  CHECK(refusal(R"({"values": {"inputs": [{"name": "a", "type": "float", "values": [1, 2]},
+                                          {"name": "b", "type": "float", "values": [1]}]}})") ==
+        "f.json: input b has 1 rows, but the table has 2: row i of every list belongs together");
+  CHECK(refusal(R"({"values": {"inputs": [{"name": "a", "type": "float", "values": [1]},
+                                          {"name": "a", "type": "float", "values": [1]}]}})") ==
+        "f.json: values.inputs: a is there twice");
+  CHECK(refusal(R"({"values": {}, "tolerance": {"ulp": -1}})") == "f.json: tolerance.ulp must be a number, 0 or more");
+  CHECK(refusal(R"({"values": {"inputs": [{"name": 1}]}})") == "f.json: values.inputs[0] needs a \"name\", a string");
+}
+
+TEST_CASE("expected outputs have to be the shader's") {
+  const auto check = [](const std::string& name, const std::string& type) {
+    return error_of(
+        [&] { check_expected(expecting("vec2", "[[1, 2]]", "{}"), {test::floats(name, type, {})}, "f.json"); });
+  };
+  CHECK(check("r", "vec2") == "");
+  CHECK(check("rr", "vec2") == "f.json: unknown output 'r'; did you mean 'rr'?");
+  CHECK(check("r", "vec3") == "f.json: output r is vec3 in the shader, but vec2 in the cases");
+}
+
+TEST_CASE("a float passes within any one tolerance") {
+  const float one = 1, next = std::nextafter(1.0f, 2.0f);
+  const auto fails = [&](const std::string& tolerance, float expected, float got) {
+    Cases cases = expecting("float", "[0]", tolerance);
+    cases.expected[0].values = test::floats("r", "float", {expected});
+    cases.expected[0].values.doubles = {double(expected)};
+    return failures(cases, test::floats("r", "float", {got})) == 1;
+  };
+  CHECK(fails("{}", one, next));
+  CHECK_FALSE(fails(R"({"ulp": 1})", one, next));
+  CHECK(fails(R"({"ulp": 1})", one, std::nextafter(next, 2.0f)));
+  CHECK_FALSE(fails(R"({"abs": 0.5})", 1, 1.5f));
+  CHECK(fails(R"({"abs": 0.5})", 1, 1.75f));
+  CHECK_FALSE(fails(R"({"rel": 0.25})", 8, 10));
+  CHECK(fails(R"({"rel": 0.25})", 8, 10.5f));
+  CHECK_FALSE(fails("{}", 0.0f, -0.0f));
+  CHECK_FALSE(fails("{}", NAN, -NAN));
+  CHECK(fails(R"({"ulp": 4294967295, "abs": 1e30, "rel": 1e30})", 1, NAN));
+  CHECK(fails(R"({"abs": 1e30, "rel": 1e30})", NAN, 1));
+  CHECK(fails(R"({"abs": 1e30, "rel": 1})", INFINITY, -INFINITY));
+  CHECK_FALSE(fails("{}", INFINITY, INFINITY));
+  CHECK_FALSE(fails(R"({"ulp": 2})", 1e-45f, -1e-45f));  // the two denormals around 0
+}
+
+TEST_CASE("integers are held to their values whatever the tolerance") {
+  CHECK(failures(expecting("int", "[5]", R"({"ulp": 10, "abs": 10})"), test::ints("r", "int", {6})) == 1);
+  CHECK(failures(expecting("uvec2", "[[4294967295, 1]]", "{}"), test::ints("r", "uvec2", {4294967295, 1})) == 0);
+}
+
+TEST_CASE("a discarded row fails where something is expected of it") {
+  EvaluatedRows rows;
+  rows.outputs = {test::floats("r", "float", {0, 0})};
+  rows.kept = {0, 0};
+  const OutputComparison comparison = compare_outputs(expecting("float", "[null, 0]", "{}"), rows);
+  REQUIRE(comparison.failures.size() == 1);
+  CHECK(comparison.failures[0].row == 1);
+  CHECK(comparison.failures[0].discarded);
+  CHECK(comparison.failed_rows == 1);
+}

@@ -1,0 +1,214 @@
+#include "evaluate/evaluator.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "tests/evaluate/tables.h"
+
+using namespace twinshade;
+using test::error_of;
+using test::floats;
+using test::fragment;
+using test::ints;
+
+namespace {
+
+// Every backend, softpipe or not as asked, gives the same bits; those of the CPU are returned.
+EvaluatedRows same_everywhere(const ShaderSource& shader, const ValueTable& table, bool softpipe = true) {
+  Evaluator evaluator;
+  EvaluatedRows first;
+  for (const EvaluationTarget& target : test::every_target()) {
+    if (target.backend == Backend::softpipe && !softpipe) continue;
+    const EvaluatedRows rows = evaluator.run(shader, table, target);
+    if (first.kept.empty()) first = rows;
+    const std::vector<std::string> a = test::listing(first), b = test::listing(rows);
+    REQUIRE(a.size() == b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) CHECK_MESSAGE(a[i] == b[i], test::name_of(target));
+  }
+  return first;
+}
+
+}  // namespace
+
+TEST_CASE("inputs of every type arrive as they are, on every backend") {
+  const std::string text =
+      "in float f; in vec2 f2; noperspective in vec3 f3; in vec4 f4; in mat2x3 m; in vec2 fa[3];\n"
+      "flat in int i; flat in ivec3 i3; flat in uint u; flat in uvec2 u2; flat in int ia[2];\n"
+      "layout(location = 0) out vec4 a; layout(location = 1) out vec4 b; layout(location = 2) out ivec4 c;\n"
+      "layout(location = 3) out uvec3 d; layout(location = 4) out vec3 e[2]; layout(location = 6) out vec2 g;\n"
+      "void main() {\n  a = vec4(f, f2, f3.x); b = f4; c = ivec4(i, i3); d = uvec3(u, u2); e[0] = m[0]; e[1] = m[1];\n"
+      "  g = fa[1] + vec2(f3.yz) * float(ia[1]) + fa[2] + fa[0];\n}\n";
+  ValueTable table{3, {}, {}, {}, {}};
+  table.inputs = {floats("f", "float", {-0.0f, INFINITY, 1e-45f * 0 + 3.5f}),
+                  floats("f2", "vec2", {1, 2, 3, 4, 5, 6}),
+                  floats("f3", "vec3", {1, 2, 3, 4, 5, 6, 7, 8, 9}),
+                  floats("f4", "vec4", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}),
+                  floats("m", "mat2x3", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18}),
+                  floats("fa", "vec2[3]", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18}),
+                  ints("i", "int", {-2147483648, 2147483647, -1}),
+                  ints("i3", "ivec3", {1, 2, 3, 4, 5, 6, 7, 8, 9}),
+                  ints("u", "uint", {4294967295, 0x7fc00001, 0xff800001}),  // NaNs, were they floats
+                  ints("u2", "uvec2", {1, 2, 3, 4, 5, 6}),
+                  ints("ia", "int[2]", {0, 1, 0, 2, 0, 3})};
+  const EvaluatedRows rows = same_everywhere(fragment(text), table);
+  CHECK(value_at(*find_values(rows.outputs, "c"), 0, 0) == -2147483648.0);
+  CHECK(find_values(rows.outputs, "d")->bits[3] == 0x7fc00001u);
+  CHECK(value_at(*find_values(rows.outputs, "e"), 2, 5) == 18);
+  CHECK(std::signbit(value_at(*find_values(rows.outputs, "a"), 0, 0)));
+  CHECK(value_at(*find_values(rows.outputs, "g"), 1, 0) == 9 + 5 * 2 + 11 + 7);
+}
+
+TEST_CASE("uniforms of every kind are set by name, matrices by column") {
+  const std::string text =
+      "struct Light { vec3 colour; float power[2]; mat2 turn; };\n"
+      "uniform Light lights[2]; uniform bool on; uniform bvec2 on2; uniform mat3x2 m; uniform uvec3 u; uniform ivec2 "
+      "i[2];\n"
+      "layout(std140) uniform Block { float first; mat2x3 turn; vec3 list[2]; bool flag; } block;\n"
+      "layout(std140, row_major) uniform Plain { mat3x2 rows_of; int last; };\n"
+      "in float x;\nout vec4 a; out vec4 b; out ivec4 c; out vec4 d;\n"
+      "void main() {\n"
+      "  a = vec4(lights[1].colour, lights[1].power[1]); b = vec4(lights[1].turn[1], m[2]);\n"
+      "  c = ivec4(on && !on2.x && on2.y && block.flag ? 1 : 0, int(u.z), i[1].y, last);\n"
+      "  d = vec4(block.first + x, block.turn[1].z, block.list[1].y, rows_of[2].y);\n}\n";
+  ValueTable table{2, {floats("x", "float", {0, 1})}, {}, {}, {}};
+  for (const std::string light : {"lights[0]", "lights[1]"}) {
+    const float k = light == "lights[0]" ? 0 : 100;
+    table.uniforms.push_back(floats(light + ".colour", "vec3", {k + 1, k + 2, k + 3}));
+    table.uniforms.push_back(floats(light + ".power", "float[2]", {k + 4, k + 5}));
+    table.uniforms.push_back(floats(light + ".turn", "mat2", {k + 6, k + 7, k + 8, k + 9}));
+  }
+  for (Values values :
+       {ints("on", "bool", {1}), ints("on2", "bvec2", {0, 1}), floats("m", "mat3x2", {1, 2, 3, 4, 5, 6}),
+        ints("u", "uvec3", {1, 2, 7}), ints("i", "ivec2[2]", {1, 2, 3, -4}), floats("Block.first", "float", {.5f}),
+        floats("block.turn", "mat2x3", {1, 2, 3, 4, 5, 6}), floats("Block.list", "vec3[2]", {1, 2, 3, 4, 5, 6}),
+        ints("Block.flag", "bool", {1}), floats("rows_of", "mat3x2", {1, 2, 3, 4, 5, 6}), ints("last", "int", {-9})})
+    table.uniforms.push_back(values);
+  const EvaluatedRows rows = same_everywhere(fragment(text), table);
+  const auto row = [&](const char* name, std::size_t r) {
+    std::vector<double> values;
+    for (std::uint32_t c = 0; c < 4; ++c) values.push_back(value_at(*find_values(rows.outputs, name), r, c));
+    return values;
+  };
+  CHECK(row("a", 0) == std::vector<double>{101, 102, 103, 105});
+  CHECK(row("b", 1) == std::vector<double>{108, 109, 5, 6});
+  CHECK(row("c", 1) == std::vector<double>{1, 7, -4, -9});
+  CHECK(row("d", 1) == std::vector<double>{1.5, 6, 5, 6});
+}
+
+TEST_CASE("uniforms that differ by row are what each row sees") {
+  ValueTable table{5, {floats("x", "float", {1, 2, 3, 4, 5})}, {floats("k", "float", {10, 20, 10, 20, 30})}, {}, {}};
+  const EvaluatedRows rows =
+      same_everywhere(fragment("in float x; uniform float k;\nout float r;\nvoid main() { r = x * k; }\n"), table);
+  for (std::size_t i = 0; i < 5; ++i) CHECK(value_at(rows.outputs[0], i, 0) == std::vector{10, 40, 30, 80, 150}[i]);
+}
+
+TEST_CASE("discarded rows, depth, place, facing and derivatives are the same everywhere") {
+  const std::string text =
+      "in float x;\nlayout(location = 1) out vec4 place; layout(location = 0) out vec2 change;\n"
+      "void main() {\n  change = vec2(dFdx(x), dFdy(x));\n  if (x == 3.0) discard;\n"
+      "  place = vec4(gl_FragCoord.xy, gl_FragCoord.z + gl_FragCoord.w, gl_FrontFacing ? float(gl_PrimitiveID) : "
+      "-1.0);\n"
+      "  gl_FragDepth = x * 2.0;\n}\n";
+  std::vector<float> x;
+  for (int i = 0; i < 300; ++i) x.push_back(float(i * i % 37));
+  const EvaluatedRows rows = same_everywhere(fragment(text), {300, {floats("x", "float", x)}, {}, {}, {}}, false);
+  for (std::size_t i = 0; i < 300; ++i) CHECK(int(rows.kept[i]) == int(x[i] != 3));
+  CHECK(value_at(*find_values(rows.outputs, "gl_FragDepth"), 2, 0) == double(2 * x[2]));
+  CHECK(value_at(*find_values(rows.outputs, "change"), 5, 0) == double(x[5] - x[4]));
+  CHECK(value_at(*find_values(rows.outputs, "place"), 129, 1) == 2.5);
+}
+
+TEST_CASE("softpipe refuses derivatives, which are coarse there, and evaluates the next shader") {
+  const auto targets = test::every_target();
+  const auto softpipe = std::find_if(targets.begin(), targets.end(),
+                                     [](const EvaluationTarget& t) { return t.backend == Backend::softpipe; });
+  if (softpipe == targets.end()) return;
+  Evaluator evaluator;
+  const ValueTable table{1, {floats("x", "float", {3})}, {}, {}, {}};
+  CHECK_THROWS_WITH_AS(
+      evaluator.run(fragment("in float x; out float r;\nvoid main() { r = fwidth(x); }\n"), table, *softpipe),
+      doctest::Contains("fwidth is not evaluated on softpipe"), BackendError);
+  const EvaluatedRows rows =
+      evaluator.run(fragment("in float x; out float r;\nvoid main() { r = x; }\n"), table, *softpipe);
+  CHECK(value_at(rows.outputs[0], 0, 0) == 3);
+}
+
+TEST_CASE("textures and storage buffers are read by name") {
+  ValueTable table{2, {floats("x", "float", {0, 1})}, {}, {}, {}};
+  table.textures = {{"map", TextureKind::two_d, 2, 1, 1, Filter::nearest, Wrap::repeat, {1, 2, 3, 4, 5, 6, 7, 8}}};
+  table.buffers = {{"List", true, std::vector<std::byte>(16, std::byte{0x40})}};
+  const EvaluatedRows rows = same_everywhere(
+      fragment("in float x; uniform sampler2D map;\nlayout(std430) readonly buffer List { float list[]; };\n"
+               "out vec2 r;\nvoid main() { r = vec2(texelFetch(map, ivec2(int(x), 0), 0).w, list[int(x)]); }\n"),
+      table);
+  CHECK(value_at(rows.outputs[0], 1, 0) == 8);
+  CHECK(value_at(rows.outputs[0], 1, 1) == doctest::Approx(3.00392));
+}
+
+TEST_CASE("in double the outputs keep every digit") {
+  Evaluator evaluator;
+  const EvaluatedRows rows = evaluator.run(
+      fragment("in float x; flat in int i;\nout float r; out int j;\nvoid main() { r = x / 3.0; j = i + 1; }\n"),
+      {1, {floats("x", "float", {1}), ints("i", "int", {41})}, {}, {}, {}}, {Backend::cpu, Number::float64, {}});
+  CHECK(value_at(*find_values(rows.outputs, "r"), 0, 0) == 1.0 / 3.0);
+  CHECK(value_at(*find_values(rows.outputs, "j"), 0, 0) == 42);
+}
+
+TEST_CASE("shaders prepared in batches are those that were asked for; a bad one spoils no other") {
+  std::vector<ShaderSource> shaders;
+  for (int i = 0; i < 7; ++i) {
+    const std::string body = i == 3 ? "r = undefined_name;" : "r = float(" + std::to_string(i) + ") + x;";
+    shaders.push_back(resolve_shader("s" + std::to_string(i),
+                                     "in float x;\nout float r;\nvoid main() { " + body + " }\n",
+                                     "s" + std::to_string(i) + ".frag"));
+  }
+  const std::vector<EvaluationTarget> targets{{Backend::cpu, Number::lanes4, Isa::baseline},
+                                              {Backend::cpu, Number::scalar, Isa::baseline}};
+  Evaluator evaluator;
+  evaluator.prepare(shaders, targets);
+  for (int i = 0; i < 7; ++i)
+    for (const EvaluationTarget& target : targets) {
+      const auto run = [&] {
+        return evaluator.run(shaders[std::size_t(i)], {1, {floats("x", "float", {.5f})}, {}, {}, {}}, target);
+      };
+      if (i == 3)
+        CHECK(error_of(run).find("s3.frag:3") != std::string::npos);
+      else
+        CHECK(value_at(run().outputs[0], 0, 0) == i + .5);
+    }
+}
+
+TEST_CASE("what does not fit is refused by name") {
+  Evaluator evaluator;
+  const ShaderSource shader =
+      fragment("in vec2 uv; uniform float scale;\nout float r;\nvoid main() { r = uv.x * scale; }\n");
+  const Values uv = floats("uv", "vec2", {1, 2}), scale = floats("scale", "float", {1});
+  const auto refusal = [&](const std::vector<Values>& inputs, const std::vector<Values>& uniforms,
+                           std::size_t rows = 1) {
+    return error_of([&] { evaluator.run(shader, {rows, inputs, uniforms, {}, {}}, {}); });
+  };
+  CHECK(refusal({uv}, {scale}) == "");
+  CHECK(refusal({}, {scale}) == "test.frag: input uv (vec2) has no values in the table");
+  CHECK(refusal({uv, floats("vu", "vec2", {1, 2})}, {scale}) == "test.frag: unknown input 'vu'; did you mean 'uv'?");
+  CHECK(refusal({floats("uv", "vec3", {1, 2, 3})}, {scale}) ==
+        "test.frag: input uv is vec2 in the shader, but vec3 in the table");
+  CHECK(refusal({uv}, {}) == "test.frag: uniform scale (float) has no value in the table");
+  CHECK(refusal({uv}, {scale, floats("skale", "float", {1})}) ==
+        "test.frag: unknown uniform 'skale'; did you mean 'scale'?");
+  CHECK(refusal({uv}, {ints("scale", "int", {1})}) ==
+        "test.frag: uniform scale is float in the shader, but int in the table");
+  CHECK(refusal({uv}, {scale}, 2) == "test.frag: input uv has 1 rows of vec2, but the table has 2");
+
+  std::string many = "in float x;\n", body;
+  for (int i = 0; i < 9; ++i) {
+    many += "out float r" + std::to_string(i) + ";\n";
+    body += " r" + std::to_string(i) + " = x;";
+  }
+  CHECK(error_of([&] {
+          evaluator.run(fragment(many + "void main() {" + body + " }\n"), {1, {floats("x", "float", {1})}, {}, {}, {}},
+                        {});
+        }).find("9 outputs, but at most 8") != std::string::npos);
+}

@@ -67,8 +67,9 @@ struct ExperimentOptions {
   bool clamp_radiance = false;        // accept probes with NaN, infinite or negative radiance
   std::vector<int> widths = {};       // of sphere maps; empty: those of the published figure
   std::vector<int> orders = {};       // of spherical harmonics; empty: those of the published figure
+  DrawFunction draw = {};             // how machines draw; for sphere-map-mse where `on` names one, visibility-figures
   std::vector<std::string> on = {};   // machines that read sphere maps; empty: the host, in double
-  DrawFunction draw = {};             // how; only needed where `on` names one
+  bool driver_filters = false;        // with `on`: by the drivers' own filters as well
   bool pictures = true;               // false: rows only
   std::function<void(const std::string&)> progress = [](const std::string&) {};
 };
@@ -97,6 +98,7 @@ ExperimentResult run_basis_imse(const ExperimentOptions& options);
 ExperimentResult run_frobenius(const ExperimentOptions& options);
 ExperimentResult run_probe_rmse(const ExperimentOptions& options);
 ExperimentResult run_sphere_map_mse(const ExperimentOptions& options);
+ExperimentResult run_visibility_figures(const ExperimentOptions& options);
 ExperimentResult run_wobble(const ExperimentOptions& options);
 ExperimentResult run_figures(const ExperimentOptions& options);
 

@@ -13,6 +13,8 @@ constexpr ExperimentInfo kExperiments[] = {
     {"sphere-map-mse", "error of sphere maps that store spherical harmonics, against their size", false,
      run_sphere_map_mse},
     {"probe-rmse", "error of irradiance probes through bases of the sphere", true, run_probe_rmse},
+    {"visibility-figures", "pictures and errors of precomputed visibility on the scene house", true,
+     run_visibility_figures},
     {"wobble", "a single light steered over the sphere: how its peak, rings and shape change", false, run_wobble},
 };
 

@@ -10,11 +10,11 @@
 #include "experiments/chart.h"
 #include "experiments/hemisphere_fit.h"
 #include "experiments/probe_light.h"
+#include "experiments/tiles.h"
 
 namespace twinshade {
 namespace {
 
-constexpr Color kInk{30, 30, 30}, kFaint{110, 110, 110};
 constexpr std::uint32_t kDisc = 96, kMapWidth = 144, kMapHeight = 72;  // pixels of an image
 constexpr double kSunElevation = 40;                                   // the worst for H6
 
@@ -65,48 +65,6 @@ Canvas map_canvas() {
       canvas.pixels.push_back(std::size_t(y) * kMapWidth + x);
     }
   return canvas;
-}
-
-// A table of images, a caption under each.
-struct Tile {
-  PixelImage image;
-  std::string caption;
-};
-struct TileRow {
-  std::string label;
-  std::vector<Tile> tiles;
-};
-
-Drawing draw_tiles(const std::string& title, const std::string& subtitle, const std::vector<TileRow>& rows) {
-  constexpr double kTop = 68, kGap = 12, kCaption = 24;
-  double label_width = 0, cell_width = 0, cell_height = 0;
-  std::size_t columns = 0;
-  for (const TileRow& row : rows) {
-    label_width = std::max(label_width, text_width(row.label, 12));
-    columns = std::max(columns, row.tiles.size());
-    for (const Tile& tile : row.tiles) {
-      cell_width = std::max({cell_width, double(tile.image.width), text_width(tile.caption, 11)});
-      cell_height = std::max(cell_height, double(tile.image.height) + kCaption);
-    }
-  }
-  const double left = 16 + label_width + kGap;
-  Drawing drawing(std::max({left + double(columns) * (cell_width + kGap), 32 + text_width(title, 19.5),
-                            32 + text_width(subtitle, 12)}),
-                  kTop + double(rows.size()) * (cell_height + kGap));
-  drawing.text({16, 28}, title, {.size = 17, .color = kInk, .bold = true});
-  drawing.text({16, 48}, subtitle, {.size = 12, .color = kFaint});
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    const double y = kTop + double(r) * (cell_height + kGap);
-    drawing.text({16, y + (cell_height - kCaption) / 2 + 4}, rows[r].label, {.size = 12, .color = kInk});
-    for (std::size_t k = 0; k < rows[r].tiles.size(); ++k) {
-      const Tile& tile = rows[r].tiles[k];
-      const double x = left + double(k) * (cell_width + kGap);
-      drawing.image({x, y}, tile.image.width, tile.image.height, tile.image);
-      drawing.text({x + tile.image.width / 2.0, y + tile.image.height + 15}, tile.caption,
-                   {.size = 11, .anchor = Anchor::middle, .color = kInk});
-    }
-  }
-  return drawing;
 }
 
 // The first functions of a basis, all on one scale.

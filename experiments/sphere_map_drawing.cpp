@@ -1,7 +1,6 @@
 #include "experiments/sphere_map_drawing.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "base/error.h"
 
@@ -21,15 +20,23 @@ Bundle whole_frame(std::uint32_t width, std::uint32_t height) {
   return bundle;
 }
 
-Uniform whole_number(const char* name, int value) {
-  return {name, Scalar::i32, 1, 1, 0, {std::bit_cast<float>(value)}};
+// RGBA of four functions from `first` on, zero beyond the last.
+std::vector<float> four_functions(std::span<const float> texels, int functions, int first) {
+  const std::size_t stride = std::size_t(functions), count = texels.size() / stride;
+  std::vector<float> rgba(count * 4, 0.0f);
+  for (std::size_t texel = 0; texel < count; ++texel)
+    for (int k = first; k < std::min(first + kPerFrame, functions); ++k)
+      rgba[texel * 4 + std::size_t(k - first)] = texels[texel * stride + std::size_t(k)];
+  return rgba;
 }
 
 }  // namespace
 
 std::vector<float> draw_reads(const std::string& machine, const DrawFunction& draw, const SphereMapGrid& grid,
-                              std::span<const float> texels, int functions, std::span<const glm::vec3> directions) {
+                              MapFilter filter, std::span<const float> texels, int functions,
+                              std::span<const glm::vec3> directions) {
   TWINSHADE_CHECK_EQ(texels.size(), std::size_t(grid.texels()) * std::size_t(functions));
+  const SphereMapInfo& map = grid.map();
   const std::uint32_t height = std::uint32_t((directions.size() + kFrameWidth - 1) / kFrameWidth);
   Bundle bundle = whole_frame(kFrameWidth, height);
 
@@ -39,25 +46,20 @@ std::vector<float> draw_reads(const std::string& machine, const DrawFunction& dr
     for (int c = 0; c < 3; ++c) looks.texels[4 * i + std::size_t(c)] = directions[i][c];
   bundle.textures.push_back(std::move(looks));
 
-  const int groups = (functions + kPerFrame - 1) / kPerFrame, layers = grid.map().layers;
+  const bool own = filter == MapFilter::written_out;
   const std::uint32_t width = std::uint32_t(grid.width());
-  Texture maps{"maps",          TextureKind::two_d_array, width, width, std::uint32_t(groups * layers),
-               Filter::nearest, Wrap::clamp_to_edge,      {}};
-  const std::size_t map_texels = std::size_t(grid.texels());
-  maps.texels.assign(std::size_t(groups) * map_texels * 4, 0.0f);
-  for (std::size_t texel = 0; texel < map_texels; ++texel)
-    for (int k = 0; k < functions; ++k)
-      maps.texels[(std::size_t(k / kPerFrame) * map_texels + texel) * 4 + std::size_t(k % kPerFrame)] =
-          texels[texel * std::size_t(functions) + std::size_t(k)];
-  bundle.textures.push_back(std::move(maps));
-  bundle.uniforms = {whole_number("width", grid.width()), whole_number("first_layer", 0)};
+  Texture& maps = bundle.textures.emplace_back();
+  maps.name = "maps";
+  maps.kind = !own && map.is_cube() ? TextureKind::cube : TextureKind::two_d_array;
+  maps.width = maps.height = width, maps.layers = std::uint32_t(map.layers);
+  maps.wrap = filter == MapFilter::driver_seamless ? Wrap::repeat : Wrap::clamp_to_edge;
 
-  const ShaderSource source = sphere_map_read_source(grid.map());
+  const ShaderSource source = own ? sphere_map_read_source(map) : sphere_map_driver_source(map);
   std::vector<float> reads(directions.size() * std::size_t(functions));
-  for (int group = 0; group < groups; ++group) {
-    bundle.uniforms[1] = whole_number("first_layer", group * layers);
+  for (int first = 0; first < functions; first += kPerFrame) {
+    maps.texels = four_functions(texels, functions, first);
     const Frame frame = draw(machine, bundle, source);
-    const int first = group * kPerFrame, last = std::min(first + kPerFrame, functions);
+    const int last = std::min(first + kPerFrame, functions);
     for (std::size_t i = 0; i < directions.size(); ++i)
       for (int k = first; k < last; ++k)
         reads[i * std::size_t(functions) + std::size_t(k)] = frame.color[4 * i + std::size_t(k - first)];

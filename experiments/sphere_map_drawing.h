@@ -12,9 +12,13 @@
 
 namespace twinshade {
 
+// Who weighs the texels: the shader, or the machine's textureLod, in cubes without and with the neighbouring faces.
+enum class MapFilter { written_out, driver, driver_seamless };
+
 // What `machine` reads of `functions` maps at each direction: [direction * functions + function].
-// texels: [texel * functions + function]. directions: rounded to float, unit.
+// driver_seamless: cubes only. texels: [texel * functions + function]. directions: rounded to float, unit.
 std::vector<float> draw_reads(const std::string& machine, const DrawFunction& draw, const SphereMapGrid& grid,
-                              std::span<const float> texels, int functions, std::span<const glm::vec3> directions);
+                              MapFilter filter, std::span<const float> texels, int functions,
+                              std::span<const glm::vec3> directions);
 
 }  // namespace twinshade

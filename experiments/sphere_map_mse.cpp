@@ -11,6 +11,7 @@
 #include "experiments/bases.h"
 #include "experiments/chart.h"
 #include "experiments/sphere_map_drawing.h"
+#include "golden/compare_frames.h"
 #include "lighting/radiance_basis.h"
 #include "lighting/random.h"
 #include "lighting/sphere_map_grid.h"
@@ -140,11 +141,29 @@ struct DrawnPoints {
   }
 };
 
-std::int64_t different_values(const std::vector<float>& a, const std::vector<float>& b) {
+// How reads differ from those of the first machine by the written-out filter: how many, by how much and by how many
+// ULP.
+std::vector<Cell> differences(const std::vector<float>& a, const std::vector<float>& b) {
   std::int64_t different = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    different += std::bit_cast<std::uint32_t>(a[i]) != std::bit_cast<std::uint32_t>(b[i]);
-  return different;
+  double largest = 0;
+  std::uint64_t ulp = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (std::bit_cast<std::uint32_t>(a[i]) == std::bit_cast<std::uint32_t>(b[i])) continue;
+    ++different;
+    largest = std::max(largest, std::abs(double(a[i]) - double(b[i])));
+    ulp = std::max(ulp, ulp_distance(a[i], b[i]));
+  }
+  return {different, number_cell(largest), ulp == UINT64_MAX ? Cell() : Cell(std::int64_t(ulp))};
+}
+
+const char* filter_name(MapFilter filter) {
+  return filter == MapFilter::written_out ? "written_out" : filter == MapFilter::driver ? "driver" : "driver_seamless";
+}
+
+std::vector<MapFilter> filters_of(const SphereMapInfo& map, const std::string& machine, bool driver) {
+  if (!driver) return {MapFilter::written_out};
+  if (!map.is_cube() || machine == "cpu") return {MapFilter::written_out, MapFilter::driver};
+  return {MapFilter::written_out, MapFilter::driver, MapFilter::driver_seamless};
 }
 
 // Of the straight line through log(mse) against log(texels); NaN with fewer than two points.
@@ -158,7 +177,7 @@ double slope(const Series& series) {
   return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
-Drawing chart(const Rows& rows, int order) {
+Drawing chart(const Rows& rows, int order, bool drawn) {
   LineChart chart;
   chart.title = "Error of sphere maps for spherical harmonics of order " + std::to_string(order);
   chart.subtitle = "mean squared error over the functions and the sphere, texels in float; slope: from 300 texels on";
@@ -166,10 +185,21 @@ Drawing chart(const Rows& rows, int order) {
   chart.y = {"mean squared error", true, {}, {}};
   for (std::size_t r = 0; r < rows.size(); ++r) {
     if (rows.number(r, "order") != order || std::get<std::string>(rows.at(r, "storage")) != "float32") continue;
-    const std::string& name = std::get<std::string>(rows.at(r, "map"));
-    if (chart.series.empty() || chart.series.back().label != name) chart.series.push_back({name, {}, {}, true});
-    chart.series.back().x.push_back(rows.number(r, "stored_texels"));
-    chart.series.back().y.push_back(rows.number(r, "mse"));
+    std::string name = std::get<std::string>(rows.at(r, "map"));
+    if (drawn) {
+      // Written-out filters read the same on every machine: one line is enough
+      const std::string &machine = std::get<std::string>(rows.at(r, "machine")),
+                        &filter = std::get<std::string>(rows.at(r, "filter"));
+      if (filter != filter_name(MapFilter::written_out))
+        name += ", " + machine + " " + filter;
+      else if (rows.number(r, "values_differ") == 0 && machine != std::get<std::string>(rows.at(0, "machine")))
+        continue;
+    }
+    const auto found = std::find_if(chart.series.begin(), chart.series.end(),
+                                    [&](const Series& series) { return series.label == name; });
+    Series& series = found != chart.series.end() ? *found : chart.series.emplace_back(Series{name, {}, {}, true});
+    series.x.push_back(rows.number(r, "stored_texels"));
+    series.y.push_back(rows.number(r, "mse"));
   }
   for (Series& series : chart.series) {
     const double s = slope(series);
@@ -194,7 +224,7 @@ ExperimentResult run_sphere_map_mse(const ExperimentOptions& options) {
   const std::vector<StoredMap> maps = stored_maps(options, harmonics);
 
   std::vector<std::string> columns = {"map", "width", "order", "storage", "stored_texels", "used_texels", "mse"};
-  if (drawn) columns.insert(columns.end(), {"machine", "values_differ"});
+  if (drawn) columns.insert(columns.end(), {"machine", "filter", "values_differ", "max_difference", "max_ulp"});
   ExperimentResult result{Rows(columns), {}, {}};
   const auto add_rows = [&](const StoredMap& map, std::size_t storage, const Sums& sums,
                             const std::vector<Cell>& more) {
@@ -219,13 +249,20 @@ ExperimentResult run_sphere_map_mse(const ExperimentOptions& options) {
         options.progress(std::string(map.grid.map().name) + " " + std::to_string(map.grid.width()));
         std::vector<float> first;
         for (const std::string& machine : options.on) {
-          std::vector<float> reads =
-              draw_reads(machine, options.draw, map.grid, map.texels[s], kFunctions, looks.directions);
-          if (first.empty()) first = reads;
-          add_rows(map, s, looks.squared_errors(reads), {machine, different_values(first, reads)});
+          for (const MapFilter filter : filters_of(map.grid.map(), machine, options.driver_filters)) {
+            const std::vector<float> reads =
+                draw_reads(machine, options.draw, map.grid, filter, map.texels[s], kFunctions, looks.directions);
+            if (first.empty()) first = reads;
+            std::vector<Cell> cells = {machine, std::string(filter_name(filter))};
+            for (Cell& cell : differences(first, reads)) cells.push_back(std::move(cell));
+            add_rows(map, s, looks.squared_errors(reads), cells);
+          }
         }
       }
-    result.notes.push_back("values_differ: values read whose bits are not those of the first machine");
+    result.notes.push_back(
+        "values_differ, max_difference, max_ulp: against what the first machine reads by the written-out filter");
+    if (options.driver_filters)
+      result.notes.push_back("driver_seamless: cubes only, and not on the cpu, whose texture() ends at a face's edge");
   } else {
     const std::vector<Sums> sums = squared_errors(maps, harmonics, options, points);
     for (std::size_t m = 0; m < maps.size(); ++m)
@@ -235,7 +272,7 @@ ExperimentResult run_sphere_map_mse(const ExperimentOptions& options) {
   result.notes.push_back("octahedral maps have odd widths: even ones are raised by one");
   if (options.pictures)
     for (const int order : orders)
-      result.pictures.push_back({"sphere-map-mse-order-" + std::to_string(order), chart(result.rows, order)});
+      result.pictures.push_back({"sphere-map-mse-order-" + std::to_string(order), chart(result.rows, order, drawn)});
   return result;
 }
 

@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "base/error.h"
-#include "cpu_shaders/runtime/machine.h"
+#include "cpu_shaders/machine.h"
 #include "lighting/light_table_kernel.h"
 #include "lighting/radiance_basis.h"
 #include "lighting/sh_product.h"

@@ -1,5 +1,7 @@
 #include "lighting/registry.h"
 
+#include "lighting/driver_source.h"
+
 #include <array>
 
 #include "base/error.h"
@@ -75,8 +77,19 @@ std::string light_tables_name(const TechniqueInfo& technique, const SphereMapInf
   return "tables_" + std::string(technique.tables) + "_" + std::string(map.name);
 }
 
-ShaderSource visibility_source(const TechniqueInfo& technique, CoefficientStorage storage, const SphereMapInfo& map,
-                               TexturePacking packing) {
+namespace {
+
+// A technique's shader before its includes are resolved.
+struct Unresolved {
+  std::string name, text, shown;  // shown: in messages
+
+  ShaderSource resolve(const std::vector<std::string>& include_folders) const {
+    return resolve_shader(name, text, shown, include_folders);
+  }
+};
+
+Unresolved visibility_text(const TechniqueInfo& technique, CoefficientStorage storage, const SphereMapInfo& map,
+                           TexturePacking packing) {
   TWINSHADE_CHECK_EQ(technique.weights == VisibilityWeights::none, false);
   const bool vertex = storage == CoefficientStorage::vertex, mapped = reads_sphere_map(technique);
   const bool packed = packing == TexturePacking::dx9 && (mapped || !vertex);
@@ -98,17 +111,16 @@ ShaderSource visibility_source(const TechniqueInfo& technique, CoefficientStorag
   text += "#include \"technique/" + std::string(technique.file) + "\"\n";
   text += "#include \"technique/irradiance_main.glsl\"\n";
   const std::string name = std::string(technique.name) + (mapped ? "_" + std::string(map.name) : "");
-  return resolve_shader(name + (vertex ? "_vertex" : "") + (packed ? "_packed" : ""), text,
-                        std::string(technique.name));
+  return {name + (vertex ? "_vertex" : "") + (packed ? "_packed" : ""), text, std::string(technique.name)};
 }
 
-ShaderSource technique_source(const TechniqueInfo& technique, CoefficientStorage storage,
-                              const std::vector<std::string>& include_folders) {
+Unresolved technique_text(const TechniqueInfo& technique, CoefficientStorage storage, const SphereMapInfo& map) {
   const std::string name(technique.name), file(technique.file);
   if (!can_read(technique, storage))
     throw UserError("technique " + name + " does not read its coefficients from " +
                     (storage == CoefficientStorage::volume ? "an irradiance volume" : "lightmaps or vertices"));
-  if (technique.weights != VisibilityWeights::none) return visibility_source(technique, storage, sphere_maps().front());
+  if (technique.weights != VisibilityWeights::none)
+    return visibility_text(technique, storage, map, TexturePacking::layers);
   const bool vertex = storage == CoefficientStorage::vertex, volume = storage == CoefficientStorage::volume;
   std::string text = vertex ? "#define TWINSHADE_VERTEX_COEFFICIENTS 1\n" : "";
   if (technique.is_basis) {
@@ -126,7 +138,25 @@ ShaderSource technique_source(const TechniqueInfo& technique, CoefficientStorage
   } else {
     text += "#include \"technique/" + file + "\"\n";
   }
-  return resolve_shader(name + (vertex ? "_vertex" : volume ? "_volume" : ""), text, name, include_folders);
+  return {name + (vertex ? "_vertex" : volume ? "_volume" : ""), text, name};
+}
+
+}  // namespace
+
+ShaderSource visibility_source(const TechniqueInfo& technique, CoefficientStorage storage, const SphereMapInfo& map,
+                               TexturePacking packing) {
+  return visibility_text(technique, storage, map, packing).resolve({});
+}
+
+ShaderSource technique_source(const TechniqueInfo& technique, CoefficientStorage storage,
+                              const std::vector<std::string>& include_folders) {
+  return technique_text(technique, storage, sphere_maps().front()).resolve(include_folders);
+}
+
+ShaderSource driver_source(const TechniqueInfo& technique, CoefficientStorage storage, const SphereMapInfo& map) {
+  Unresolved unresolved = technique_text(technique, storage, map);
+  unresolved.text.insert(0, "#define precise\n");
+  return unresolved.resolve({"builtin:driver"});
 }
 
 ShaderSource basis_values_source(const TechniqueInfo& technique, const std::vector<std::string>& include_folders) {

@@ -61,18 +61,39 @@ ShaderSource sphere_map_direction_source(const SphereMapInfo& map) {
 
 ShaderSource sphere_map_read_source(const SphereMapInfo& map) {
   const std::string name = std::string(map.name) + "_read";
-  const std::string text = "#include \"sphere_map/" + std::string(map.file) +
-                           "\"\n"
-                           "uniform sampler2D directions;\n"
-                           "uniform sampler2DArray maps;\n"
-                           "uniform int width;\n"
-                           "uniform int first_layer;\n"
-                           "out vec4 color;\n"
-                           "void main() {\n"
-                           "  vec3 direction = texelFetch(directions, ivec2(gl_FragCoord.xy), 0).rgb;\n"
-                           "  color = sphere_map_fetch(maps, sphere_map_taps(direction, width), 1, first_layer);\n"
-                           "}\n";
+  const std::string text =
+      "#include \"sphere_map/" + std::string(map.file) +
+      "\"\n"
+      "uniform sampler2D directions;\n"
+      "uniform sampler2DArray maps;\n"
+      "out vec4 color;\n"
+      "void main() {\n"
+      "  vec3 direction = texelFetch(directions, ivec2(gl_FragCoord.xy), 0).rgb;\n"
+      "  color = sphere_map_fetch(maps, sphere_map_taps(direction, textureSize(maps, 0).x), 1, 0);\n"
+      "}\n";
   return resolve_shader(name, text, name);
+}
+
+ShaderSource sphere_map_driver_source(const SphereMapInfo& map) {
+  const std::string name = std::string(map.name) + "_driver";
+  const std::string directions = "uniform sampler2D directions;\nout vec4 color;\n",
+                    direction = "  vec3 direction = texelFetch(directions, ivec2(gl_FragCoord.xy), 0).rgb;\n";
+  if (map.is_cube())
+    return resolve_shader(name,
+                          directions + "uniform samplerCube maps;\nvoid main() {\n" + direction +
+                              "  color = textureLod(maps, direction, 0.0);\n}\n",
+                          name);
+  return resolve_shader(name,
+                        "#include \"sphere_map/" + std::string(map.file) + "\"\n" + directions +
+                            "uniform sampler2DArray maps;\n"
+                            "void main() {\n" +
+                            direction +
+                            "  vec3 square = sphere_map_square(direction);\n"
+                            "  float width = float(textureSize(maps, 0).x);\n"
+                            "  vec2 place = (square.xy * (width - 1.0) + width) / (2.0 * width);\n"
+                            "  color = textureLod(maps, vec3(place, square.z), 0.0);\n"
+                            "}\n",
+                        name);
 }
 
 }  // namespace twinshade

@@ -15,6 +15,8 @@ struct SphereMapInfo {
   std::string_view source;
 
   int texels(int width) const { return layers * width * width; }
+  // Its layers are the faces of an OpenGL cube map.
+  bool is_cube() const { return layers == 6; }
 };
 
 std::span<const SphereMapInfo> sphere_maps();
@@ -28,8 +30,12 @@ ShaderSource sphere_map_taps_source(const SphereMapInfo& map);
 // For the host: `in vec3 texel; in float width` to `out vec3 direction`: the unit direction of a texel's centre.
 ShaderSource sphere_map_direction_source(const SphereMapInfo& map);
 
-// For renderers: the fragment shader that reads `uniform sampler2DArray maps` (map width `uniform int width`, from
-// layer `uniform int first_layer` on) in the direction that `uniform sampler2D directions` has at the pixel.
+// For renderers: the fragment shader that reads a map, `uniform sampler2DArray maps`, in the direction that `uniform
+// sampler2D directions` has at the pixel.
 ShaderSource sphere_map_read_source(const SphereMapInfo& map);
+
+// The same by the driver's own bilinear filter, outside the exact dialect. `maps` is one map: a samplerCube of faces
+// (Wrap::repeat: filtered across edges, OpenGL only) where the map is a cube; else a sampler2DArray, linear.
+ShaderSource sphere_map_driver_source(const SphereMapInfo& map);
 
 }  // namespace twinshade

@@ -7,8 +7,8 @@
 
 const int SPHERE_MAP_LAYERS = 2;
 
-SphereMapTaps sphere_map_taps(vec3 direction, int width) {
-  return edge_aligned_taps(disk_to_square(direction.xy), width, direction.z < 0.0 ? 1 : 0);
+vec3 sphere_map_square(vec3 direction) {
+  return vec3(disk_to_square(direction.xy), direction.z < 0.0 ? 1.0 : 0.0);
 }
 
 vec3 sphere_map_direction(ivec3 texel, int width) {

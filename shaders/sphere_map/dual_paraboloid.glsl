@@ -7,10 +7,10 @@
 
 const int SPHERE_MAP_LAYERS = 2;
 
-SphereMapTaps sphere_map_taps(vec3 direction, int width) {
+vec3 sphere_map_square(vec3 direction) {
   precise float denominator = 1.0 + abs(direction.z);
   precise vec2 disk = direction.xy / denominator;
-  return edge_aligned_taps(disk_to_square(disk), width, direction.z < 0.0 ? 1 : 0);
+  return vec3(disk_to_square(disk), direction.z < 0.0 ? 1.0 : 0.0);
 }
 
 vec3 sphere_map_direction(ivec3 texel, int width) {

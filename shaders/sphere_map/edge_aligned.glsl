@@ -11,6 +11,9 @@ vec2 edge_aligned_square(ivec2 texel, int width) {
   return square;
 }
 
+// Where a direction meets the map: -1 to 1 both ways, and the layer. Of the map that includes this file.
+vec3 sphere_map_square(vec3 direction);
+
 // NaN reads texel 0; what is outside the square, its edge.
 SphereMapTaps edge_aligned_taps(vec2 square, int width, int layer) {
   precise float last = float(width - 1);
@@ -24,4 +27,9 @@ SphereMapTaps edge_aligned_taps(vec2 square, int width, int layer) {
   ivec2 high = min(low + 1, width - 1);
   precise vec2 fraction = vec2(u, v) - vec2(low);
   return sphere_map_block(low, high, layer, exact_bilinear_weights(fraction));
+}
+
+SphereMapTaps sphere_map_taps(vec3 direction, int width) {
+  vec3 square = sphere_map_square(direction);
+  return edge_aligned_taps(square.xy, width, int(square.z));
 }

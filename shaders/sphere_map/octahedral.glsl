@@ -12,10 +12,10 @@ vec2 octahedral_fold(vec2 p) {
   return vec2(p.x < 0.0 ? -folded.x : folded.x, p.y < 0.0 ? -folded.y : folded.y);
 }
 
-SphereMapTaps sphere_map_taps(vec3 direction, int width) {
+vec3 sphere_map_square(vec3 direction) {
   precise float sum = (abs(direction.x) + abs(direction.y)) + abs(direction.z);
   precise vec2 square = direction.xy / sum;
-  return edge_aligned_taps(direction.z < 0.0 ? octahedral_fold(square) : square, width, 0);
+  return vec3(direction.z < 0.0 ? octahedral_fold(square) : square, 0.0);
 }
 
 vec3 sphere_map_direction(ivec3 texel, int width) {

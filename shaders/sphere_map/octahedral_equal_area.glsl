@@ -6,7 +6,7 @@
 
 const int SPHERE_MAP_LAYERS = 1;
 
-SphereMapTaps sphere_map_taps(vec3 direction, int width) {
+vec3 sphere_map_square(vec3 direction) {
   vec3 extent = abs(direction);
   precise float cap = 1.0 - extent.z;
   precise float radius = sqrt(cap < 0.0 ? 0.0 : cap);
@@ -15,7 +15,7 @@ SphereMapTaps sphere_map_taps(vec3 direction, int width) {
   precise float x = radius - y;
   precise vec2 folded = vec2(1.0 - y, 1.0 - x);
   vec2 square = direction.z < 0.0 ? folded : vec2(x, y);
-  return edge_aligned_taps(vec2(direction.x < 0.0 ? -square.x : square.x, direction.y < 0.0 ? -square.y : square.y), width, 0);
+  return vec3(direction.x < 0.0 ? -square.x : square.x, direction.y < 0.0 ? -square.y : square.y, 0.0);
 }
 
 vec3 sphere_map_direction(ivec3 texel, int width) {

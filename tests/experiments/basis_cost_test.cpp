@@ -49,6 +49,26 @@ TEST_CASE("a loop is counted once, and said to be one") {
   CHECK(count.loops);
 }
 
+TEST_CASE("a loop between constants is counted as often as it runs") {
+  const auto body = [](const std::string& head) {
+    return "vec3 f() {\n  vec3 r = a;\n  " + head + " r += a;\n  return r;\n}";
+  };
+  CHECK(counted(body("for (int i = 0; i < 9; ++i)")).additions == 27);
+  CHECK(counted(body("for (int i = 8; i >= 2; i -= 2)")).additions == 12);
+  CHECK(counted(body("for (uint i = 1u; i <= 3u; i++)")).additions == 9);
+  CHECK(counted(body("for (int i = 3; i < 3; ++i)")).additions == 0);
+  const OperationCount nested = counted(body("for (int i = 0; i < 3; ++i) for (int k = 0; k < 4; ++k)"));
+  CHECK(nested.additions == 36);
+  CHECK_FALSE(nested.loops);
+  // What may end earlier, or counts otherwise, is only known to be a loop
+  for (const std::string head :
+       {"for (int i = 0; i < 9; ++i) if (b > float(i)) break; else", "for (int i = 0; i < 9; i += 1 + i)",
+        "for (int i = 0; i < 9; ++i) for (; i < 7; ++i)"}) {
+    CAPTURE(head);
+    CHECK(counted(body(head)).loops);
+  }
+}
+
 TEST_CASE("a function that is not there is named") {
   CHECK_THROWS_WITH_AS(count_operations(basis_irradiance_source(find_technique("h4")), "nothing", ""),
                        doctest::Contains("nothing"), UserError);

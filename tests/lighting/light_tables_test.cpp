@@ -8,7 +8,7 @@
 #include <set>
 
 #include "base/error.h"
-#include "cpu_shaders/runtime/machine.h"
+#include "cpu_shaders/machine.h"
 #include "lighting/light_table_kernel.h"
 #include "lighting/radiance_basis.h"
 #include "lighting/random.h"

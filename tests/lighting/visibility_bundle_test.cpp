@@ -136,6 +136,7 @@ TEST_CASE("textures that would be too large are refused in one line, with the re
                        UserError);
   const Scene scene = floor_scene();
   const VisibilityBake bake = baked(scene);
+  CHECK_THROWS_AS(bundle_of(scene, bake, some_light(), {"unc6"}, lighting_with(TexturePacking::dx9, 640)), UserError);
   CHECK_THROWS_AS(bundle_of(scene, bake, some_light(), {"unc6"}, lighting_with(TexturePacking::layers, 4096)),
                   UserError);
   CHECK_THROWS_AS(bundle_of(scene, bake, some_light(), {"unc3"}, lighting_with(TexturePacking::layers, 4097)),

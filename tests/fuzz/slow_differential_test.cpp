@@ -1,0 +1,23 @@
+// As differential_test.cpp, 1,500 programs on every number type.
+#include <doctest/doctest.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "tests/fuzz/differential.h"
+
+using namespace twinshade;
+
+TEST_CASE("1,500 generated programs: 4, 8 and 16 lanes, scalar and llvmpipe compute what they mean") {
+  std::vector<EvaluationTarget> targets;
+  for (const Number number : {Number::scalar, Number::lanes4, Number::lanes8, Number::lanes16})
+    targets.push_back({Backend::cpu, number, Isa::baseline});
+#if TWINSHADE_HAS_GL
+  targets.push_back({Backend::egl, Number::scalar, {}});
+#endif
+  const auto progress = [](std::uint64_t done) { std::fprintf(stderr, "%llu programs\n", (unsigned long long)done); };
+  const fuzz::Tally tally = fuzz::compare_programs(1, 1500, targets, 48, progress);
+  CHECK(tally.programs == 1500);
+  for (const std::string& line : tally.mistranslated) FAIL_CHECK(line);
+  for (const std::string& line : tally.driver_differs) FAIL_CHECK(line);
+}

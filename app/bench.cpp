@@ -1,218 +1,132 @@
 // bench: what a frame costs, ours against llvmpipe's in the same run.
-//
-// Processors drift by more than the differences that matter, so the machines take turns within each round, the order is
-// reversed every other round, and ratios are taken round by round before their median.
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <filesystem>
 #include <memory>
 
-#include "app/machines.h"
+#include "app/bench/report.h"
+#include "app/bench/scaling.h"
 #include "app/output.h"
 #include "app/provenance.h"
-#include "app/quartiles.h"
+#include "app/rows_output.h"
 #include "app/subject.h"
-#include "app/table.h"
 #include "base/error.h"
-#include "cpu_shaders/runtime/machine.h"
+#include "base/file.h"
+#include "base/parallel.h"
+#include "base/processors.h"
+#include "cpu_shaders/machine.h"
+#include "lighting/driver_source.h"
 
 namespace twinshade {
 namespace {
+
+using namespace bench;
 
 struct BenchVerb {
   CommonOptions common;
   SubjectOptions subject;
   ShadingOptions shading;
   CpuOptions cpu;
-  int rounds = 7, repeat = 5;
+  int rounds = 5, repeat = 3;
   bool host_fma = true;
+  std::vector<AttributeMode> attributes{AttributeMode::exact, AttributeMode::native};
+  std::vector<std::string> axes;  // of scaling; none: every technique is timed
+  std::string folder;
 
   int run() const;
-};
-
-// One way to draw a frame.
-struct Way {
-  std::string renderer;
-  CpuOptions cpu;  // isa set where renderer is "cpu"
-  AttributeMode attributes = AttributeMode::native;
-  bool depth_prepass = false;
-  std::shared_ptr<Machines> machines;
-
-  // Filled by the rounds.
-  std::vector<double> milliseconds;  // of each round
-  std::uint64_t shaded_pixels = 0;
-  std::string failure;
-};
-
-// Every renderer times the whole draw under this name, stages apart.
-double draw_milliseconds(const Frame& frame) {
-  for (const auto& [stage, ms] : frame.milliseconds)
-    if (stage == "draw") return ms;
-  throw BackendError("the renderer did not time its draw");
-}
-
-class BenchRun {
- public:
-  BenchRun(const BenchVerb& verb, const Output& output)
-      : verb_(verb),
-        output_(output),
-        provenance_(verb.common),
-        subject_(load_subject(verb.subject, verb.shading, verb.common, output)) {
-    provenance_.add(subject_);
-    table_.column("technique");
-    table_.column("light");
-    table_.column("map");
-    table_.column("renderer");
-    table_.column("isa");
-    table_.column("attributes");
-    for (const char* heading : {"ms", "q1", "q3", "ns/pixel", "x llvmpipe"})
-      table_.column(heading, Table::Align::right);
-  }
-
-  int run() {
-    std::string skipped;
-    for (const auto& [technique, reason] : subject_.skipped)
-      skipped += fmt::format("skipped {}: {}\n", technique, reason);
-    for (const Shading& shader : load_shadings(verb_.shading, subject_)) {
-      try {
-        measure(shader);
-      } catch (const UserError& error) {
-        if (!wants_all(verb_.shading)) throw;
-        skipped += fmt::format("skipped {}: {}\n", shader.technique, error.what());
-      }
-    }
-    output_.text(table_.text() + skipped + failures_);
-    output_.json({{"provenance", provenance_.json()}, {"rows", rows_}});
-    return failures_.empty() ? 0 : 2;
-  }
 
  private:
-  std::vector<Way> ways() const {
-    std::vector<Way> ways;
-    for (const Isa isa : {Isa::baseline, Isa::avx2, Isa::avx512}) {
-      if (verb_.cpu.isa ? isa != *verb_.cpu.isa : isa > machine_isa()) continue;
-      for (const AttributeMode attributes : {AttributeMode::exact, AttributeMode::native}) {
-        Way way;
-        way.renderer = "cpu";
-        way.cpu = verb_.cpu;
-        way.cpu.isa = isa;
-        way.cpu.number = verb_.cpu.number.value_or(natural_number(isa));
-        way.attributes = attributes;
-        ways.push_back(std::move(way));
-      }
-    }
-    for (const bool depth_prepass : {false, true}) {
-      Way way;
-      way.renderer = "egl";
-      way.depth_prepass = depth_prepass;
-      ways.push_back(std::move(way));
-    }
-    for (Way& way : ways) way.machines = std::make_shared<Machines>(way.cpu, verb_.host_fma);
-    return ways;
-  }
-
-  void measure(const Shading& shader) {
-    provenance_.add(shader);
-    std::vector<Way> all = ways();
-    for (int round = 0; round < verb_.rounds; ++round) {
-      output_.progress(fmt::format("{}: round {} of {}", shader.label(), round + 1, verb_.rounds));
-      for (Way& way : all) draw(way, shader);
-      std::reverse(all.begin(), all.end());
-    }
-    if (verb_.rounds % 2 == 1) std::reverse(all.begin(), all.end());
-    report(shader, all);
-  }
-
-  void draw(Way& way, const Shading& shader) {
-    if (!way.failure.empty()) return;
-    DrawOptions options;
-    options.attributes = way.attributes;
-    options.depth_prepass = way.depth_prepass;
-    options.warmup = 1;
-    options.repeat = verb_.repeat;
-    try {
-      const Frame frame = way.machines->draw(way.renderer, subject_.bundle, shader.source, options);
-      way.milliseconds.push_back(draw_milliseconds(frame));
-      way.shaded_pixels = std::uint64_t(std::count(frame.coverage.begin(), frame.coverage.end(), 1));
-      provenance_.add(way.renderer, frame);
-    } catch (const BackendError& error) {
-      way.failure = error.what();
-    }
-  }
-
-  // llvmpipe's better way: drawing depth first helps it or does not, by the shader.
-  static const Way* counted_llvmpipe(const std::vector<Way>& all) {
-    const Way* best = nullptr;
-    for (const Way& way : all) {
-      if (way.renderer != "egl" || way.milliseconds.empty()) continue;
-      if (!best || quartiles(way.milliseconds).median < quartiles(best->milliseconds).median) best = &way;
-    }
-    return best;
-  }
-
-  void report(const Shading& shader, const std::vector<Way>& all) {
-    const Way* llvmpipe = counted_llvmpipe(all);
-    const Json light = shader.light.empty() ? Json(nullptr) : Json(shader.light);
-    for (const Way& way : all) {
-      const std::string isa = way.renderer == "cpu" ? isa_name(*way.cpu.isa) : "";
-      const std::string renderer = way.depth_prepass ? "egl, depth first" : way.renderer;
-      const std::string attributes = attribute_mode_name(way.attributes);
-      if (!way.failure.empty()) {
-        failures_ += fmt::format("failed {} on {}: {}\n", shader.technique, renderer, way.failure);
-        rows_.push_back({{"technique", shader.technique},
-                         {"light", light},
-                         {"map", shader.map.empty() ? Json(nullptr) : Json(shader.map)},
-                         {"renderer", way.renderer},
-                         {"depth_prepass", way.depth_prepass},
-                         {"error", way.failure}});
-        continue;
-      }
-      const Quartiles ms = quartiles(way.milliseconds);
-      const double ns_per_pixel = way.shaded_pixels == 0 ? 0 : ms.median * 1e6 / double(way.shaded_pixels);
-      Json row{{"technique", shader.technique},
-               {"light", light},
-               {"map", shader.map.empty() ? Json(nullptr) : Json(shader.map)},
-               {"renderer", way.renderer},
-               {"isa", isa.empty() ? Json(nullptr) : Json(isa)},
-               {"number", isa.empty() ? Json(nullptr) : Json(number_name(*way.cpu.number))},
-               {"attributes", attributes},
-               {"depth_prepass", way.depth_prepass},
-               {"ms", ms.median},
-               {"ms_q1", ms.q1},
-               {"ms_q3", ms.q3},
-               {"ns_per_pixel", ns_per_pixel},
-               {"ratio_to_llvmpipe", nullptr}};
-      std::string ratio_text = "-";
-      if (llvmpipe) {
-        std::vector<double> ratios;
-        for (std::size_t i = 0; i < way.milliseconds.size(); ++i)
-          ratios.push_back(llvmpipe->milliseconds[i] / way.milliseconds[i]);
-        const double ratio = quartiles(ratios).median;
-        row["ratio_to_llvmpipe"] = ratio;
-        ratio_text = fmt::format("{:.2f}", ratio);
-      }
-      rows_.push_back(std::move(row));
-      table_.row({shader.technique, shader.light.empty() ? "-" : shader.light, shader.map.empty() ? "-" : shader.map,
-                  renderer, isa, attributes, fmt::format("{:.2f}", ms.median), fmt::format("{:.2f}", ms.q1),
-                  fmt::format("{:.2f}", ms.q3), fmt::format("{:.2f}", ns_per_pixel), ratio_text});
-    }
-  }
-
-  const BenchVerb& verb_;
-  const Output& output_;
-  Provenance provenance_;
-  const Subject subject_;
-  Table table_;
-  Json rows_ = Json::array();
-  std::string failures_;
+  int time_techniques(const Output& output) const;
+  int time_scaling(const Output& output) const;
 };
+
+// As OpenGL is timed with it: techniques with the driver's own filter, a user's shader as it is.
+ShaderSource source_for_driver(const Shading& shading) {
+  if (shading.light.empty()) return shading.source;
+  const SphereMapInfo& map = shading.map.empty() ? sphere_maps().front() : find_sphere_map(shading.map);
+  for (const CoefficientStorage storage :
+       {CoefficientStorage::lightmap, CoefficientStorage::vertex, CoefficientStorage::volume})
+    if (shading.light == storage_name(storage)) return driver_source(find_technique(shading.technique), storage, map);
+  return shading.source;
+}
 
 int BenchVerb::run() const {
   apply(common);
   const Output output(common);
-  if (cpu.isa && *cpu.isa > machine_isa())
-    throw UserError(fmt::format("--isa {}: this processor has only {}", isa_name(*cpu.isa), isa_name(machine_isa())));
-  return BenchRun(*this, output).run();
+  if (cpu.isa) require_isa(*cpu.isa);
+  if (thread_count() > processor_count())
+    throw UserError(
+        fmt::format("--threads {}: timings need a processor for each, and this process may use {} processors",
+                    thread_count(), processor_count()));
+  if (!folder.empty()) require_writable_folder(folder);
+  return axes.empty() ? time_techniques(output) : time_scaling(output);
+}
+
+int BenchVerb::time_scaling(const Output& output) const {
+  ScalingOptions options;
+  options.axes = axes;
+  options.subject = subject;
+  options.cpu = cpu;
+  options.host_fma = host_fma;
+  options.rounds = Rounds{rounds, repeat};
+  if (!wants_all(shading)) {
+    if (shading.techniques.size() != 1 || !shading.shader.empty())
+      throw UserError("--scaling draws with one technique: name one by --technique");
+    options.technique = shading.techniques.front();
+  }
+  Provenance provenance(common);
+  options.rounds.drawn = [&](const Way& way, const Frame& frame) { provenance.add(way.renderer, frame); };
+  const ExperimentResult result = run_scaling(options, common, output);
+  output.text(table_text(result.rows));
+  for (const std::string& note : result.notes) output.note(note);
+  if (!folder.empty()) {
+    write_file((std::filesystem::path(folder) / "scaling.csv").string(), result.rows.csv());
+    write_pictures(folder, result.pictures, output);
+  }
+  output.json({{"provenance", provenance.json()}, {"rows", json_rows(result.rows)}, {"notes", result.notes}});
+  return 0;
+}
+
+int BenchVerb::time_techniques(const Output& output) const {
+  Provenance provenance(common);
+  const Subject subject_ready = load_subject(subject, shading, common, output);
+  provenance.add(subject_ready);
+
+  const std::vector<Way> ways = all_ways(cpu, attributes, host_fma);
+  std::vector<Limits> limits;
+  output.progress("measuring the machine's limits");
+  for (const Way& way : ways)
+    if (way.is_cpu() && (limits.empty() || limits.back().isa != *way.cpu.isa))
+      limits.push_back(measure_limits(*way.cpu.isa));
+  Report report(limits);
+  std::string skipped;
+  for (const auto& [technique, reason] : subject_ready.skipped)
+    skipped += fmt::format("skipped {}: {}\n", technique, reason);
+  for (const Shading& shader : load_shadings(shading, subject_ready)) {
+    Rounds turns{rounds, repeat};
+    turns.progress = [&](int round) {
+      output.progress(fmt::format("{}: round {} of {}", shader.label(), round + 1, rounds));
+    };
+    turns.drawn = [&](const Way& way, const Frame& frame) { provenance.add(way.renderer, frame); };
+    try {
+      provenance.add(shader);
+      report.add(shader, shader_cost(shader.source),
+                 race(ways, subject_ready.bundle, shader.source, source_for_driver(shader), turns));
+    } catch (const UserError& error) {
+      if (!wants_all(shading)) throw;
+      skipped += fmt::format("skipped {}: {}\n", shader.label(), error.what());
+    }
+  }
+  output.text(report.text() + skipped);
+  if (!folder.empty()) {
+    write_file((std::filesystem::path(folder) / "bench.csv").string(), report.csv());
+    write_pictures(folder, report.pictures(), output);
+  }
+  output.json({{"provenance", provenance.json()},
+               {"limits", report.limits_json()},
+               {"rows", report.rows_json()},
+               {"summary", report.summary_json()}});
+  return report.failed() ? 2 : 0;
 }
 
 }  // namespace
@@ -224,6 +138,16 @@ Verb add_bench(CLI::App& app) {
   add_shading_options(*command, verb->shading, "all");
   add_count_option(*command, "--rounds", verb->rounds, "rounds in which every machine takes its turn");
   add_count_option(*command, "--repeat", verb->repeat, "frames of a turn, whose median counts");
+  add_attribute_modes_option(*command, verb->attributes);
+  command
+      ->add_option(
+          "--scaling", verb->axes,
+          "cost against pixels, triangles, overdraw, threads, coefficients, or all, of one technique (default: sh3)")
+      ->delimiter(',')
+      ->type_name("AXIS,...");
+  command
+      ->add_option("-o,--output", verb->folder, "write bench.csv, bench.svg, bench.png and the stages into this folder")
+      ->type_name("DIR");
   add_cpu_options(*command, verb->cpu);
   add_fma_option(*command, verb->host_fma);
   add_common_options(*command, verb->common);

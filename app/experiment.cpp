@@ -7,11 +7,10 @@
 #include "app/machines.h"
 #include "app/output.h"
 #include "app/provenance.h"
-#include "app/table.h"
+#include "app/rows_output.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "experiments/experiment.h"
-#include "golden/pictures.h"
 
 namespace twinshade {
 namespace {
@@ -25,72 +24,6 @@ struct ExperimentVerb {
   int run();
 };
 
-Json json_cell(const Cell& cell) {
-  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
-  if (const auto* whole = std::get_if<std::int64_t>(&cell)) return *whole;
-  if (const auto* real = std::get_if<double>(&cell)) return *real;
-  return nullptr;
-}
-
-std::string table_cell(const Cell& cell) {
-  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
-  if (const auto* whole = std::get_if<std::int64_t>(&cell)) return std::to_string(*whole);
-  if (const auto* real = std::get_if<double>(&cell)) return fmt::format("{:.7g}", *real);
-  return "-";
-}
-
-Json json_rows(const Rows& rows) {
-  Json list = Json::array();
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    Json row = Json::object();
-    for (std::size_t c = 0; c < rows.columns().size(); ++c) row[rows.columns()[c]] = json_cell(rows[r][c]);
-    list.push_back(std::move(row));
-  }
-  return list;
-}
-
-std::string table_text(const Rows& rows) {
-  Table table;
-  for (std::size_t c = 0; c < rows.columns().size(); ++c) {
-    const bool text = rows.size() > 0 && std::holds_alternative<std::string>(rows[0][c]);
-    table.column(rows.columns()[c], text ? Table::Align::left : Table::Align::right);
-  }
-  for (std::size_t r = 0; r < rows.size(); ++r) {
-    std::vector<std::string> cells;
-    for (const Cell& cell : rows[r]) cells.push_back(table_cell(cell));
-    table.row(std::move(cells));
-  }
-  return table.text();
-}
-
-void write_radiometric(const std::string& path, const RadiometricImage& image) {
-  Frame frame;
-  frame.width = image.width;
-  frame.height = image.height;
-  frame.color.resize(std::size_t(image.width) * image.height * 4);
-  for (std::uint32_t y = 0; y < image.height; ++y)  // frames are y-up
-    for (std::uint32_t x = 0; x < image.width; ++x) {
-      const float* from = image.rgb.data() + (std::size_t(y) * image.width + x) * 3;
-      float* to = frame.color.data() + (std::size_t(image.height - 1 - y) * image.width + x) * 4;
-      for (int c = 0; c < 3; ++c) to[c] = from[c];
-      to[3] = 1;
-    }
-  write_picture(path, frame);
-}
-
-void write_pictures(const std::string& folder, const std::vector<Picture>& pictures, const Output& output) {
-  for (const Picture& picture : pictures) {
-    const std::string path = (std::filesystem::path(folder) / picture.name).string();
-    output.progress("writing " + path);
-    if (const auto* drawing = std::get_if<Drawing>(&picture.content)) {
-      write_file(path + ".svg", drawing->svg());
-      write_file(path + ".png", drawing->png());
-    } else {
-      write_radiometric(path + ".exr", std::get<RadiometricImage>(picture.content));
-    }
-  }
-}
-
 int ExperimentVerb::run() {
   const ExperimentInfo& experiment = find_experiment(name);
   if (!options.probes.empty() && !experiment.takes_probes)
@@ -101,6 +34,8 @@ int ExperimentVerb::run() {
   options.seed = common.seed;
   options.pictures = !folder.empty();
   if (!options.on.empty()) require_backends(options.on);
+  if (options.driver_filters && options.on.empty())
+    throw UserError("--driver-filters: name the machines that read with --on, as --on cpu,egl");
   Machines machines(CpuOptions(), true);
   options.draw = [&](const std::string& machine, const Bundle& bundle, const ShaderSource& source) {
     return machines.draw(machine, bundle, source, DrawOptions());
@@ -147,6 +82,8 @@ Verb add_experiment(CLI::App& app) {
                    "sphere-map-mse: read the maps on these machines, by the shader itself, and compare the bits")
       ->delimiter(',')
       ->type_name("M,...");
+  command->add_flag("--driver-filters", verb->options.driver_filters,
+                    "with --on: read the maps by the drivers' own filters as well, cubes with seams and without");
   command
       ->add_option("--samples", verb->options.samples,
                    "random signals or points (default: as many as the published figures need)")

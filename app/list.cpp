@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "base/names.h"
 #include "base/parallel.h"
-#include "cpu_shaders/runtime/machine.h"
+#include "cpu_shaders/machine.h"
 #include "experiments/basis_cost.h"
 #include "lighting/registry.h"
 #include "lighting/sphere_maps.h"

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 
+#include "app/memory_needed.h"
 #include "base/error.h"
 #include "base/names.h"
 #include "base/parallel.h"
 #include "cpu_shaders/load/load.h"
-#include "cpu_shaders/runtime/machine.h"
+#include "cpu_shaders/machine.h"
 #include "raster/tiled/tiled_renderer.h"
 #if TWINSHADE_HAS_GL
 #include "raster/gl/gl_renderer.h"
@@ -66,6 +67,7 @@ Frame Machines::draw(const std::string& backend, const Bundle& bundle, const Sha
     TWINSHADE_CHECK_EQ(cpu_frame != nullptr, true);
     return shade_gl(bundle, source, *cpu_frame, host_fma_, options.time_limit_seconds);
   }
+  require_frame_memory(bundle.width, bundle.height, backend);
   return renderer(backend).draw(bundle, source, options);
 }
 

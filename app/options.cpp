@@ -5,19 +5,20 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 
 #include "base/error.h"
 #include "base/names.h"
 #include "base/parallel.h"
+#include "cpu_shaders/machine.h"
 
 namespace twinshade {
 namespace {
 
-constexpr std::array<const char*, 3> kIsaNames{"baseline", "avx2", "avx512"};
-constexpr std::array<const char*, 5> kNumberNames{"lanes4", "lanes8", "lanes16", "scalar", "float64"};
-constexpr std::array<const char*, 2> kAttributeModeNames{"exact", "native"};
-constexpr std::array<const char*, 5> kLightNames{"auto", "lightmap", "vertex", "volume", "all"};
-constexpr std::array<const char*, 3> kTonemapNames{"none", "reinhard", "aces"};
+constexpr const char* kNumberNames[] = {"lanes4", "lanes8", "lanes16", "scalar", "float64"};
+constexpr const char* kAttributeModeNames[] = {"exact", "native"};
+constexpr const char* kLightNames[] = {"auto", "lightmap", "vertex", "volume", "all"};
+constexpr const char* kTonemapNames[] = {"none", "reinhard", "aces"};
 
 constexpr std::uint32_t kLargestFrame = 16384;
 constexpr std::uint32_t kLargestLightmap = 4096;
@@ -25,13 +26,14 @@ constexpr std::uint32_t kMostRays = 65536;
 constexpr int kMostProbes = 256;
 constexpr int kWidestMap = 4096;
 constexpr int kMostThreads = 1024;
+constexpr std::uint32_t kMostTriangles = 1u << 27;  // as scenes/patch_mesh.h
 
 // Index of `value` in `names`; UserError with the nearest ones where there is none.
 template <std::size_t count>
-std::size_t index_of(const std::array<const char*, count>& names, const std::string& kind, const std::string& value) {
+std::size_t index_of(const char* const (&names)[count], const std::string& kind, const std::string& value) {
   for (std::size_t i = 0; i < count; ++i)
     if (value == names[i]) return i;
-  throw UserError(unknown_name_message(kind, value, {names.begin(), names.end()}));
+  throw UserError(unknown_name_message(kind, value, {std::begin(names), std::end(names)}));
 }
 
 template <class T>
@@ -147,6 +149,10 @@ void add_subject_options(CLI::App& command, SubjectOptions& options) {
   add_parsed(command, "--camera", "EYE,TARGET,FOV",
              "seven numbers; vertical field of view in degrees (default: the scene's)",
              given("--camera", [&](const std::string& text) { options.camera = parse_camera(text); }));
+  add_parsed(command, "--triangles", "N", "refine a built-in scene to at least so many triangles",
+             given("--triangles", [&](const std::string& text) {
+               options.triangles = parse_between<std::uint32_t>("--triangles", text, 1, kMostTriangles);
+             }));
   add_parsed(command, "--lightmap", "N", "lightmap texels each way (default: 512)",
              given("--lightmap", [&](const std::string& text) {
                options.lightmap_size = parse_between<std::uint32_t>("--lightmap", text, 1, kLargestLightmap);
@@ -236,6 +242,20 @@ void add_attribute_option(CLI::App& command, AttributeMode& attributes) {
              });
 }
 
+void add_attribute_modes_option(CLI::App& command, std::vector<AttributeMode>& modes) {
+  add_parsed(command, "--attributes", "exact|native|both", "how the CPU interpolates attributes (default: both)",
+             [&](const std::string& text) {
+               if (text != "both") modes = {AttributeMode(index_of(kAttributeModeNames, "attribute mode", text))};
+             });
+}
+
+void add_annotate_option(CLI::App& command, std::string& service) {
+  command
+      .add_option("--annotate", service, "name what did not pass in the form that a service shows beside the source")
+      ->check(CLI::IsMember({"github"}))
+      ->type_name("github");
+}
+
 void add_fma_option(CLI::App& command, bool& host_fma) {
   add_parsed(command, "--gl-fma", "on|off", "fused multiply-add within llvmpipe (default: on)",
              [&](const std::string& text) { host_fma = parse_switch("--gl-fma", text); });
@@ -281,7 +301,10 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
              [&](const std::string& text) { options.tonemap = Tonemap(index_of(kTonemapNames, "tone curve", text)); });
 }
 
-void apply(const CommonOptions& options) { set_thread_count(options.threads); }
+void apply(const CommonOptions& options) {
+  set_thread_count(options.threads);
+  machine_isa();  // a wrong TWINSHADE_ISA is said before any work
+}
 
 const char* isa_name(Isa isa) { return kIsaNames[std::size_t(isa)]; }
 const char* number_name(Number number) { return kNumberNames[std::size_t(number)]; }

@@ -29,8 +29,10 @@ Verb add_bake(CLI::App& app);
 Verb add_render(CLI::App& app);
 Verb add_compare(CLI::App& app);
 Verb add_translate(CLI::App& app);
+Verb add_check(CLI::App& app);
 Verb add_bench(CLI::App& app);
 Verb add_experiment(CLI::App& app);
+Verb add_eval(CLI::App& app);
 
 // Every verb.
 struct CommonOptions {
@@ -47,6 +49,7 @@ enum class LightSource { automatic, lightmap, vertex, volume, all };
 // What is drawn: all that goes into a bundle.
 struct SubjectOptions {
   std::string scene = "courtyard";  // built-in name, model or bundle file
+  std::uint32_t triangles = 0;      // refine a built-in scene to at least so many; 0: as it is
   std::string environment = "sky";
   double rotation_degrees = 0;
   bool clamp_radiance = false;
@@ -90,7 +93,10 @@ void add_shading_options(CLI::App& command, ShadingOptions& options, const std::
 // --reference-rays and --reference-order.
 void add_reference_options(CLI::App& command, ShadingOptions& options);
 void add_attribute_option(CLI::App& command, AttributeMode& attributes);
+// The same, or both.
+void add_attribute_modes_option(CLI::App& command, std::vector<AttributeMode>& modes);
 // --gl-fma, and --no-host-fma for short.
+void add_annotate_option(CLI::App& command, std::string& service);
 void add_fma_option(CLI::App& command, bool& host_fma);
 void add_cpu_options(CLI::App& command, CpuOptions& options);
 void add_count_option(CLI::App& command, const std::string& name, int& count,

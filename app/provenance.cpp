@@ -43,11 +43,11 @@ void Provenance::add(const Subject& subject) {
 
 void Provenance::add(const Shading& shading) { json_["shaders"][shading.label()] = source_hash(shading.source); }
 
-void Provenance::add(const std::string& backend, const Frame& frame) {
+void Provenance::add(const std::string& backend, const std::vector<std::pair<std::string, std::string>>& said) {
   Json& entry = json_["backends"][backend];
   if (!entry.is_null()) return;
   entry = Json::object();
-  for (const auto& [key, value] : frame.provenance)
+  for (const auto& [key, value] : said)
     if (key != "shader") entry[key] = value;  // one of many: they have their own place
 }
 

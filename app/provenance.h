@@ -18,7 +18,8 @@ class Provenance {
   void add(const Subject& subject);
   void add(const Shading& shading);
   // GL_RENDERER, instruction set ...: what the backend says about itself. The first frame of a backend counts.
-  void add(const std::string& backend, const Frame& frame);
+  void add(const std::string& backend, const Frame& frame) { add(backend, frame.provenance); }
+  void add(const std::string& backend, const std::vector<std::pair<std::string, std::string>>& said);
   Json json() const { return json_; }
 
  private:

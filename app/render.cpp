@@ -4,12 +4,15 @@
 #include <memory>
 
 #include "app/machines.h"
+#include "app/memory_needed.h"
 #include "app/output.h"
 #include "app/provenance.h"
-#include "app/reference.h"
 #include "app/subject.h"
 #include "base/error.h"
+#include "experiments/reference_frame.h"
 #include "golden/pictures.h"
+#include "lighting/environment_light.h"
+#include "scenes/scene.h"
 
 namespace twinshade {
 namespace {
@@ -40,16 +43,16 @@ struct RenderVerb {
       require_writable_file(file);
     }
 
-    const bool traced = wants_reference(shading);
+    const bool traced = shading.shader.empty() && shading.techniques.front() == kReferenceTechnique;
     if (traced && backend != "cpu") throw UserError("technique reference has no shader: the cpu alone draws it");
     Subject ready;
     if (!traced) ready = load_subject(subject, shading, common, output);
-    const Shading shader = traced ? Shading{"reference", "", "", {}} : load_shadings(shading, ready).front();
+    const Shading shader = traced ? Shading{kReferenceTechnique, "", "", {}} : load_shadings(shading, ready).front();
     DrawOptions options;
     options.attributes = attributes;
     output.progress("drawing " + shader.technique + " on " + backend);
-    const Frame frame = traced ? draw_reference(subject, shading, cpu, common, output, ready)
-                               : Machines(cpu, host_fma).draw(backend, ready.bundle, shader.source, options);
+    const Frame frame =
+        traced ? trace(output, ready) : Machines(cpu, host_fma).draw(backend, ready.bundle, shader.source, options);
     const std::string hash = frame_hash(frame);
     if (!file.empty()) {
       PictureOptions noted = picture;
@@ -78,6 +81,30 @@ struct RenderVerb {
                  {"distinct_threads", frame.distinct_threads},
                  {"milliseconds", milliseconds}});
     return 0;
+  }
+
+ private:
+  Frame trace(const Output& output, Subject& ready) const {
+    require_frame_memory(subject.width, subject.height, "cpu");
+    require_scene_memory(subject);
+    const Scene scene = load_scene(subject.scene, subject.triangles);
+    for (const std::string& note : scene.notes) output.note(subject.scene + ": " + note);
+    Environment environment = load_light(subject);
+    if (shading.reference_order > 0)
+      environment = environment_of_radiance(environment_radiance(environment, shading.reference_order),
+                                            shading.reference_order, 512);
+    ReferenceOptions options;
+    options.rays = shading.reference_rays;
+    options.seed = common.seed;
+    options.show_progress = !common.quiet;
+    Machines machines(cpu, host_fma);
+    const DrawFunction draw = [&](const std::string& machine, const Bundle& bundle, const ShaderSource& source) {
+      return machines.draw(machine, bundle, source, DrawOptions());
+    };
+    ReferenceFrame traced = draw_reference(scene, environment, frame_options(subject, scene), options, draw);
+    ready.bundle = std::move(traced.bundle);
+    ready.hash = bundle_hash(ready.bundle);
+    return std::move(traced.frame);
   }
 };
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "app/memory_needed.h"
 #include "base/error.h"
 #include "base/names.h"
 #include "lighting/bake.h"
@@ -266,7 +267,9 @@ Subject load_subject(const SubjectOptions& options, const ShadingOptions& shadin
                              storage_name(storage));
         });
   } else {
-    const Scene scene = load_scene(options.scene);
+    require_frame_memory(options.width, options.height, "cpu");
+    require_scene_memory(options);
+    const Scene scene = load_scene(options.scene, options.triangles);
     for (const std::string& note : scene.notes) output.note(options.scene + ": " + note);
     choose(
         subject, chosen, shading,
@@ -276,9 +279,9 @@ Subject load_subject(const SubjectOptions& options, const ShadingOptions& shadin
                                       ? " has no lightmap; use --light vertex"
                                       : " has no surfaces in the world whose visibility could be baked");
         });
-    subject.bundle =
-        bundle_from_scene(options, shading, scene,
-                          own_shader ? coefficients_read(text, scene, shading.light) : subject.drawn, common, output);
+    const std::vector<LitTechnique> baked = own_shader ? coefficients_read(text, scene, shading.light) : subject.drawn;
+    require_lightmap_memory(options, baked);
+    subject.bundle = bundle_from_scene(options, shading, scene, baked, common, output);
   }
   if (wants_all(shading)) subject.skipped.emplace_back(kReferenceTechnique, kReferenceReason);
   subject.hash = bundle_hash(subject.bundle);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/processors.h"
 
 #if TWINSHADE_USE_TBB
 #include <oneapi/tbb/global_control.h>
@@ -19,16 +20,8 @@
 namespace twinshade {
 namespace {
 
-int processors_allowed() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  if (sched_getaffinity(0, sizeof set, &set) == 0) return CPU_COUNT(&set);
-  const unsigned count = std::thread::hardware_concurrency();
-  return count == 0 ? 1 : int(count);
-}
-
 int& requested() {
-  static int count = processors_allowed();
+  static int count = processor_count();
   return count;
 }
 
@@ -53,9 +46,17 @@ struct Work {
 
 }  // namespace
 
+int processor_count() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  if (sched_getaffinity(0, sizeof set, &set) == 0) return CPU_COUNT(&set);
+  const unsigned count = std::thread::hardware_concurrency();
+  return count == 0 ? 1 : int(count);
+}
+
 void set_thread_count(int count) {
   if (count < 0 || count > 1024) throw UserError("threads: " + std::to_string(count) + " is not within 0 to 1024");
-  requested() = count == 0 ? processors_allowed() : count;
+  requested() = count == 0 ? processor_count() : count;
 }
 
 int thread_count() { return requested(); }

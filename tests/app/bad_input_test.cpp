@@ -1,10 +1,12 @@
 // Whatever is wrong with what the user gives: one clear line on stderr, exit code 2, no partial file.
 #include <OpenImageIO/imageio.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <doctest/doctest.h>
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -80,6 +82,10 @@ TEST_CASE("malformed options are refused") {
   check_refused({"bake", "quad"}, {"--output"});
   check_refused({"render", "quad", "--threads", "0"}, {"--threads", "1 to 1024"});
   check_refused({"render", "quad", "--threads", "two"}, {"--threads"});
+  check_refused({"bench", "quad", "--threads", "0"}, {"--threads", "1 to 1024"});
+  check_refused({"bench", "quad", "--threads", "1000"}, {"--threads 1000", "processors"});
+  check_refused({"render", "quad", "--triangles", "0"}, {"--triangles"});
+  check_refused({"render", "quad", "--triangles", "200000000"}, {"--triangles", "134217728"});
   check_refused({"render", "quad", "--seed", "-1"}, {"--seed"});
   check_refused({"render", "quad", "--tile", "48"}, {"--tile", "16, 32, 64 or 128"});
   check_refused({"render", "quad", "--lanes", "32"}, {"--lanes", "4, 8 or 16"});
@@ -106,6 +112,30 @@ TEST_CASE("malformed options are refused") {
   check_refused({"compare", "quad", "--on", "cpu"}, {"at least two"});
   check_refused({"compare", "quad", "--on", "cpu,cpu"}, {"twice"});
   check_refused({"compare", "quad", "--on", "softpipe,cpu"}, {"cpu first"});
+}
+
+TEST_CASE("an instruction set that is unknown, or that TWINSHADE_ISA rules out, is refused") {
+  ::setenv("TWINSHADE_ISA", "sse9", 1);
+  check_refused(small_quad({"render"}, {}), {"TWINSHADE_ISA=sse9", "baseline, avx2, avx512"});
+  check_refused({"bench", "quad"}, {"TWINSHADE_ISA=sse9"});
+  ::setenv("TWINSHADE_ISA", "baseline", 1);
+  check_refused(small_quad({"render"}, {"--isa", "avx512"}), {"avx512"});
+  const Run run = run_twinshade(small_quad({"render"}, {"--technique", "lightmap", "--json", "-"}));
+  ::unsetenv("TWINSHADE_ISA");
+  REQUIRE_MESSAGE(run.code == 0, run.err);
+  CHECK(run.json()["provenance"].dump().find("\"isa\":\"baseline\"") != std::string::npos);
+}
+
+TEST_CASE("a frame, a scene or lightmaps larger than memory are refused before anything is allocated") {
+  rlimit old{};
+  REQUIRE(getrlimit(RLIMIT_AS, &old) == 0);
+  rlimit lower = old;
+  lower.rlim_cur = rlim_t(4) << 30;
+  REQUIRE(setrlimit(RLIMIT_AS, &lower) == 0);  // inherited by the program
+  check_refused({"render", "quad", "--size", "16384x16384"}, {"16384x16384", "GiB", "smaller --size"});
+  check_refused({"render", "quad", "--triangles", "100000000"}, {"100000000 triangles", "GiB", "fewer --triangles"});
+  check_refused({"bench", "quad", "--lightmap", "4096"}, {"4096x4096 texels", "GiB", "smaller --lightmap"});
+  REQUIRE(setrlimit(RLIMIT_AS, &old) == 0);
 }
 
 TEST_CASE("missing and truncated models are refused by name") {

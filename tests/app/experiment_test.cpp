@@ -22,4 +22,30 @@ TEST_CASE("sphere maps are read alike on the CPU and by OpenGL, to the bit") {
   for (const auto& row : rows) CHECK_MESSAGE(row["values_differ"] == 0, row.dump());
 }
 
+TEST_CASE("drivers filter flat maps as written out but for rounding, and cubes with or without seams") {
+  if (!why_missing("egl").empty()) return;
+  const Run run = run_twinshade({"experiment", "sphere-map-mse", "--on", "cpu,egl", "--driver-filters", "--map",
+                                 "cube,cube_dx9,dual_paraboloid", "--map-width", "5", "--order", "3", "--samples",
+                                 "3000", "--json", "-"});
+  REQUIRE_MESSAGE(run.code == 0, run.err);
+  int rows = 0;
+  const nlohmann::json result = run.json()["rows"];
+  for (const auto& row : result) {
+    CAPTURE(row.dump());
+    const std::string map = row["map"], filter = row["filter"];
+    if (filter == "written_out") {
+      CHECK(row["values_differ"] == 0);
+      continue;
+    }
+    ++rows;
+    // Faces that end at their edge are what cube_dx9 is, faces that go on what cube is
+    const bool alike = map == "dual_paraboloid" || (filter == "driver") == (map == "cube_dx9");
+    if (alike)
+      CHECK(row["max_difference"] < 1e-5);
+    else
+      CHECK(row["max_difference"] > 1e-3);
+  }
+  CHECK(rows == 3 * (3 + 3 + 2));  // storages; filters of cube, cube_dx9, dual_paraboloid
+}
+
 }  // namespace twinshade

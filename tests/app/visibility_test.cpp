@@ -39,7 +39,8 @@ TEST_CASE("packed textures draw the bits that layered ones draw, on every machin
     const Run run = run_twinshade(seen_quad({"compare"}, technique));
     REQUIRE_MESSAGE(run.code == 0, run.err);
     CHECK(run.json()["provenance"]["bundle_notes"]["visibility_packing"] == "dx9");
-    for (const auto& row : run.json()["results"]) {
+    const nlohmann::json results = run.json()["results"];
+    for (const auto& row : results) {
       CAPTURE(row.dump());
       CHECK(row["pixels_differ"] == 0);
       CHECK(row["shaded_pixels"] > 0);

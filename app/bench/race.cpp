@@ -1,0 +1,103 @@
+#include "app/bench/race.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "cpu_shaders/machine.h"
+
+namespace twinshade::bench {
+namespace {
+
+// Every renderer times the whole draw under this name, stages apart.
+double milliseconds_of(const Frame& frame, const std::string& name) {
+  for (const auto& [stage, ms] : frame.milliseconds)
+    if (stage == name) return ms;
+  return -1;
+}
+
+void draw(Timing& timing, const Bundle& bundle, const ShaderSource& source, const Rounds& rounds) {
+  const Way& way = timing.way;
+  DrawOptions options;
+  options.attributes = way.attributes;
+  options.depth_prepass = way.depth_prepass;
+  options.warmup = 1;
+  options.time_limit_seconds = 600;
+  options.repeat = rounds.repeat;
+  try {
+    restart_peak_memory();
+    const Frame frame = way.machines->draw(way.renderer, bundle, source, options);
+    timing.peak_memory = std::max(timing.peak_memory, peak_memory());
+    const double whole = milliseconds_of(frame, "draw");
+    if (whole < 0) throw BackendError("the renderer did not time its draw");
+    timing.milliseconds.push_back(whole);
+    for (std::size_t s = 0; s < kStageCount; ++s)
+      if (const double ms = milliseconds_of(frame, kStages[s]); ms >= 0) timing.stages[s].push_back(ms);
+    timing.shaded_pixels = std::uint64_t(std::count(frame.coverage.begin(), frame.coverage.end(), 1));
+    rounds.drawn(way, frame);
+  } catch (const BackendError& error) {
+    timing.failure = error.what();
+  } catch (const UserError&) {
+    if (!way.depth_prepass) throw;
+    timing.impossible = true;
+  }
+}
+
+}  // namespace
+
+std::vector<Way> all_ways(const CpuOptions& cpu, const std::vector<AttributeMode>& modes, bool host_fma) {
+  std::vector<Way> ways;
+  for (const Isa isa : {Isa::baseline, Isa::avx2, Isa::avx512}) {
+    if (cpu.isa ? isa != *cpu.isa : isa > machine_isa()) continue;
+    for (const AttributeMode mode : modes) {
+      Way way;
+      way.renderer = "cpu";
+      way.cpu = cpu;
+      way.cpu.isa = isa;
+      way.cpu.number = cpu.number.value_or(natural_number(isa));
+      way.attributes = mode;
+      ways.push_back(std::move(way));
+    }
+  }
+  for (Way& way : ways) way.machines = std::make_shared<Machines>(way.cpu, host_fma);
+  const auto egl = std::make_shared<Machines>(cpu, host_fma);  // one worker, which is given the bundle once
+  for (const bool depth_prepass : {false, true}) {
+    Way way;
+    way.renderer = "egl";
+    way.depth_prepass = depth_prepass;
+    way.machines = egl;
+    ways.push_back(std::move(way));
+  }
+  return ways;
+}
+
+std::vector<Timing> race(const std::vector<Way>& ways, const Bundle& bundle, const ShaderSource& cpu,
+                         const ShaderSource& gl, const Rounds& rounds) {
+  std::vector<Timing> timings;
+  for (const Way& way : ways) timings.emplace_back().way = way;
+  for (int round = 0; round < rounds.rounds; ++round) {
+    rounds.progress(round);
+    for (std::size_t i = 0; i < timings.size(); ++i) {
+      Timing& timing = timings[round % 2 == 0 ? i : timings.size() - 1 - i];
+      if (timing.failure.empty() && !timing.impossible) draw(timing, bundle, timing.way.is_cpu() ? cpu : gl, rounds);
+    }
+  }
+  return timings;
+}
+
+const Timing* faster_llvmpipe(const std::vector<Timing>& timings) {
+  const Timing* best = nullptr;
+  for (const Timing& timing : timings)
+    if (!timing.way.is_cpu() && timing.drawn() && (!best || timing.median() < best->median())) best = &timing;
+  return best;
+}
+
+Quartiles ratio(const Timing& other, const Timing& timing) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < std::min(other.milliseconds.size(), timing.milliseconds.size()); ++i)
+    ratios.push_back(other.milliseconds[i] / timing.milliseconds[i]);
+  return quartiles(ratios);
+}
+
+}  // namespace twinshade::bench

@@ -1,0 +1,31 @@
+// How the cost of a frame grows: with its pixels, its triangles, its overdraw, the threads and the coefficients that a
+// shader reads.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/bench/race.h"
+#include "app/options.h"
+#include "app/output.h"
+#include "experiments/experiment.h"
+
+namespace twinshade::bench {
+
+struct ScalingOptions {
+  std::vector<std::string> axes;  // names, or "all"
+  SubjectOptions subject;         // scene, environment, size and bake of the axes that do not vary them
+  std::string technique = "sh3";  // a basis that is read from lightmaps
+  CpuOptions cpu;
+  bool host_fma = true;
+  Rounds rounds;
+};
+
+// In the order in which they are measured.
+const std::vector<std::string>& scaling_axes();
+
+// A row for each machine at each point of each axis; pictures: milliseconds, or nanoseconds a pixel, and memory against
+// each axis. UserError for axes that do not exist, with the nearest ones, and for other techniques.
+ExperimentResult run_scaling(const ScalingOptions& options, const CommonOptions& common, const Output& output);
+
+}  // namespace twinshade::bench

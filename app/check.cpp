@@ -1,0 +1,156 @@
+// check: anyone's GLSL on every machine, over generated inputs.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "app/check_report.h"
+#include "app/machines.h"
+#include "app/output.h"
+#include "app/provenance.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "cpu_shaders/machine.h"
+
+namespace twinshade {
+namespace {
+
+namespace fs = std::filesystem;
+
+Backend backend_of(const std::string& name) {
+  for (const Backend backend : kBackends)
+    if (name == backend_name(backend)) return backend;
+  return Backend::cpu;  // require_backends refused the others
+}
+
+struct CheckVerb {
+  CommonOptions common;
+  CpuOptions cpu;
+  CheckOptions options;
+  EvaluatorOptions evaluator_options;
+  std::vector<std::string> shaders;
+  std::vector<std::string> on{"cpu", "egl", "osmesa", "softpipe"};
+  CLI::Option* on_given = nullptr;
+  std::string junit, annotate;
+  bool watch = false, no_timing = false;
+
+  int run() {
+    apply(common);
+    const Output output(common);
+    require_backends(on);
+    if (on.size() < 2) throw UserError("--on " + on[0] + ": name at least two backends to compare");
+    if (!junit.empty()) require_writable_file(junit);
+    options.on.clear();
+    for (const std::string& name : on) {
+      EvaluationTarget target;
+      target.backend = backend_of(name);
+      target.number = cpu.number.value_or(natural_number(cpu.isa.value_or(machine_isa())));
+      target.isa = cpu.isa;
+      if (target.number == Number::float64) throw UserError("--number float64: doubles are never the bits of floats");
+      options.on.push_back(target);
+    }
+    options.generate.seed = common.seed;
+    options.timing = !no_timing;
+    evaluator_options.optimisation = options.timing ? 2 : 1;
+    const int code = once(output, shaders);
+    return watch ? watch_forever(output) : code;
+  }
+
+  int once(const Output& output, const std::vector<std::string>& paths) {
+    Evaluator evaluator(evaluator_options);
+    const std::vector<CheckedShader> results = check_shaders(evaluator, paths, options, [&](std::size_t index) {
+      output.progress(fmt::format("{} ({} of {})", paths[index], index + 1, paths.size()));
+    });
+    output.text(check_table(results));
+    for (const CheckedShader& shader : results)
+      if (const std::string text = describe_check(shader, options.make_exact); !text.empty()) output.text("\n" + text);
+    Json list = Json::array();
+    std::vector<JUnitCase> cases;
+    for (const CheckedShader& shader : results) {
+      list.push_back(check_json(shader, options.make_exact));
+      cases.push_back(check_junit(shader, options.make_exact));
+      for (const std::string& file : shader.files) remember(file);
+      remember(shader.path);
+    }
+    output.json({{"provenance", Provenance(common).json()},
+                 {"rows", options.generate.rows},
+                 {"make_exact", options.make_exact},
+                 {"shaders", list}});
+    if (!junit.empty()) write_file(junit, junit_xml("twinshade check", cases));
+    if (!annotate.empty()) output.text(github_annotations(cases));
+    return exit_code(results);
+  }
+
+  int exit_code(const std::vector<CheckedShader>& results) const {
+    int code = 0;
+    for (const CheckedShader& shader : results) {
+      if (shader.verdict == Verdict::refused || shader.verdict == Verdict::not_run) code = 2;
+      if (shader.verdict == Verdict::differs) code = std::max(code, 1);
+      for (const BackendCheck& check : shader.backends)
+        if (!check.not_run.empty() && on_given->count() > 0) code = 2;  // asked for by name
+    }
+    return code;
+  }
+
+  void remember(const std::string& file) {
+    std::error_code code;
+    times_[file] = fs::last_write_time(file, code);
+  }
+
+  // Until it is interrupted. Files that are gone for a moment, as editors write them, are waited for.
+  int watch_forever(const Output& output) {
+    for (;;) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(200));
+      bool changed = false;
+      for (const auto& [file, time] : times_) {
+        std::error_code code;
+        const fs::file_time_type now = fs::last_write_time(file, code);
+        changed |= !code && now != time;
+      }
+      if (!changed) continue;
+      output.text("\n");
+      once(output, shaders);
+    }
+  }
+
+  std::map<std::string, fs::file_time_type> times_;
+};
+
+}  // namespace
+
+Verb add_check(CLI::App& app) {
+  CLI::App* command =
+      app.add_subcommand("check", "your GLSL on every machine over generated inputs, compared bit by bit");
+  const auto verb = std::make_shared<CheckVerb>();
+  command->add_option("shaders", verb->shaders, "fragment shader files")->type_name("SHADER...")->required();
+  verb->on_given = command
+                       ->add_option("--on", verb->on,
+                                    "backends; the first is what the others are compared with (default: all that work)")
+                       ->delimiter(',')
+                       ->type_name("B,...");
+  command->add_option("--rows", verb->options.generate.rows, "rows of generated inputs (default: 2048)")
+      ->check(CLI::Range(std::size_t{1}, kMostTableRows))
+      ->type_name("N");
+  command
+      ->add_option("--inputs", verb->options.inputs_file,
+                   "ranges of inputs (default: SHADER.inputs, where there is one)")
+      ->type_name("FILE");
+  command->add_option("-I,--include", verb->options.include_folders, "folder to look for included files in")
+      ->type_name("DIR");
+  command->add_flag("--make-exact", verb->options.make_exact, "compare the shader brought into the exact dialect");
+  command->add_option("--ulp", verb->options.ulp, "largest distance that is called the same (default: 0)")
+      ->type_name("N");
+  command->add_option("--junit", verb->junit, "write JUnit XML")->type_name("FILE");
+  add_annotate_option(*command, verb->annotate);
+  command->add_flag("--no-timing", verb->no_timing, "do not measure nanoseconds");
+  command->add_flag("--watch", verb->watch, "check again whenever a file is saved");
+  add_cpu_options(*command, verb->cpu);
+  add_fma_option(*command, verb->evaluator_options.host_fma);
+  add_time_limit_option(*command, verb->evaluator_options.time_limit_seconds);
+  add_common_options(*command, verb->common);
+  return {command, [verb] { return verb->run(); }};
+}
+
+}  // namespace twinshade

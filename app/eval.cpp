@@ -1,0 +1,188 @@
+// eval: shaders over tables of inputs, against the outputs that are expected.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+
+#include "app/eval_report.h"
+#include "app/machines.h"
+#include "app/output.h"
+#include "app/provenance.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/names.h"
+#include "cpu_shaders/machine.h"
+
+namespace twinshade {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+// A shader and its cases, both files.
+struct CasePaths {
+  std::string shader, cases;
+};
+
+// NAME.frag with NAME.json, by name. UserError for an empty folder or a file without its partner.
+std::vector<CasePaths> pairs_in(const std::string& folder) {
+  std::vector<CasePaths> pairs;
+  std::vector<std::string> lonely;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const fs::path path = entry.path();
+    const bool shader = path.extension() == ".frag";
+    if (!shader && path.extension() != ".json") continue;
+    const fs::path partner = fs::path(path).replace_extension(shader ? ".json" : ".frag");
+    if (!fs::exists(partner)) lonely.push_back(path.string() + " has no " + partner.filename().string() + " beside it");
+    if (shader) pairs.push_back({path.string(), partner.string()});
+  }
+  if (!lonely.empty()) throw UserError(*std::min_element(lonely.begin(), lonely.end()));
+  if (pairs.empty()) throw UserError(folder + ": no shaders in it: it needs pairs NAME.frag and NAME.json");
+  std::sort(pairs.begin(), pairs.end(), [](const CasePaths& a, const CasePaths& b) { return a.shader < b.shader; });
+  return pairs;
+}
+
+// "lanes" is what shading has registers for; "double" and "float" are what people call float64 and scalar.
+Number number_named(const std::string& name) {
+  if (name == "lanes") return natural_number(machine_isa());
+  if (name == "double") return Number::float64;
+  if (name == "float") return Number::scalar;
+  return parse_number(name);
+}
+
+struct EvalVerb {
+  CommonOptions common;
+  std::string shader, cases_file, junit_file, annotate;
+  std::vector<std::string> backends{"cpu", "egl"};
+  Number number = natural_number(machine_isa());
+  EvaluatorOptions options;
+
+  int run() const {
+    apply(common);
+    const Output output(common);
+    if (!junit_file.empty()) require_writable_file(junit_file);
+    require_backends(backends);
+    const std::vector<EvaluationTarget> targets = named_targets();
+    const bool many = fs::is_directory(shader);
+    if (many && !cases_file.empty())
+      throw UserError("--cases: " + shader + " is a folder, whose shaders NAME.frag have their cases in NAME.json");
+    if (!many && cases_file.empty())
+      throw UserError("--cases is missing: a JSON file with the inputs of " + shader +
+                      " and the outputs that are expected");
+    const std::vector<CasePaths> paths = many ? pairs_in(shader) : std::vector<CasePaths>{{shader, cases_file}};
+
+    std::vector<ShaderSource> sources(paths.size());
+    std::vector<EvaluatedCase> cases(paths.size());
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      cases[i].name = fs::path(paths[i].shader).stem().string();
+      cases[i].file = paths[i].shader;
+      guarded(cases[i], many, [&] {
+        sources[i] = load_shader(paths[i].shader);
+        cases[i].cases = parse_cases(read_file(paths[i].cases), paths[i].cases);
+      });
+    }
+    evaluate(sources, paths, targets, many, cases, output);
+    return report(cases, many, output);
+  }
+
+  std::vector<EvaluationTarget> named_targets() const {
+    std::vector<EvaluationTarget> targets;
+    for (const std::string& name : backends)
+      for (const Backend backend : kBackends)
+        if (name == backend_name(backend)) targets.push_back({backend, number, {}});
+    return targets;
+  }
+
+  // What is wrong with one of many shaders is its own result; with the only one it ends the run.
+  template <class Action>
+  static void guarded(EvaluatedCase& c, bool many, Action action) {
+    try {
+      action();
+    } catch (const UserError& error) {
+      if (!many) throw;
+      c.error = error.what();
+    }
+  }
+
+  void evaluate(const std::vector<ShaderSource>& sources, const std::vector<CasePaths>& paths,
+                const std::vector<EvaluationTarget>& targets, bool many, std::vector<EvaluatedCase>& cases,
+                const Output& output) const {
+    std::vector<ShaderSource> good;
+    for (std::size_t i = 0; i < cases.size(); ++i)
+      if (cases[i].error.empty()) good.push_back(sources[i]);
+    Evaluator evaluator(options);
+    evaluator.prepare(good, targets, [&](const std::string& stage, std::size_t done, std::size_t all) {
+      output.progress(fmt::format("{} shaders: {} of {}", stage, done, all));
+    });
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      if (!cases[i].error.empty()) continue;
+      output.progress(fmt::format("running shaders: {} of {}", i + 1, cases.size()));
+      guarded(cases[i], many, [&] {
+        for (const EvaluationTarget& target : targets) run_one(evaluator, sources[i], paths[i], target, cases[i]);
+      });
+      if (!cases[i].error.empty()) cases[i].backends.clear();
+    }
+  }
+
+  static void run_one(Evaluator& evaluator, const ShaderSource& source, const CasePaths& paths,
+                      const EvaluationTarget& target, EvaluatedCase& c) {
+    EvaluatedBackend backend;
+    backend.name = backend_name(target.backend);
+    const auto start = Clock::now();
+    try {
+      backend.rows = evaluator.run(source, c.cases.table, target);
+    } catch (const BackendError& error) {
+      backend.error = error.what();
+    }
+    backend.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    if (backend.error.empty()) {
+      check_expected(c.cases, backend.rows.outputs, paths.cases);
+      backend.comparison = compare_outputs(c.cases, backend.rows);
+    }
+    c.backends.push_back(std::move(backend));
+  }
+
+  int report(const std::vector<EvaluatedCase>& cases, bool many, const Output& output) const {
+    output.text(eval_text(cases, many));
+    Provenance provenance(common);
+    for (const EvaluatedCase& c : cases)
+      for (const EvaluatedBackend& backend : c.backends)
+        if (backend.error.empty()) provenance.add(backend.name, backend.rows.provenance);
+    output.json({{"provenance", provenance.json()}, {"cases", eval_json(cases)}});
+    if (!junit_file.empty()) write_file(junit_file, junit_xml("twinshade eval", eval_junit(cases)));
+    if (!annotate.empty()) output.text(github_annotations(eval_junit(cases)));
+    const auto has_error = [](const EvaluatedCase& c) { return c.has_error(); };
+    if (std::any_of(cases.begin(), cases.end(), has_error)) return 2;
+    return std::all_of(cases.begin(), cases.end(), [](const EvaluatedCase& c) { return c.pass(); }) ? 0 : 1;
+  }
+};
+
+}  // namespace
+
+Verb add_eval(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("eval", "shaders over tables of inputs, against expected outputs");
+  const auto verb = std::make_shared<EvalVerb>();
+  command->add_option("shader", verb->shader, "fragment shader, or a folder of NAME.frag and NAME.json")
+      ->type_name("SHADER or DIR")
+      ->required();
+  command->add_option("--cases", verb->cases_file, "inputs and expected outputs of the shader (docs/eval.md)")
+      ->type_name("F.json");
+  command->add_option("--on", verb->backends, "backends of cpu, egl, osmesa, softpipe (default: cpu,egl)")
+      ->delimiter(',')
+      ->type_name("A,B,...");
+  command
+      ->add_option_function<std::string>(
+          "--number", [verb = verb.get()](const std::string& name) { verb->number = number_named(name); },
+          "number type of the CPU (default: lanes, as many as registers hold)")
+      ->type_name("lanes|lanes4|lanes8|lanes16|scalar|double");
+  command->add_option("--junit", verb->junit_file, "write the results as JUnit XML")->type_name("F.xml");
+  add_annotate_option(*command, verb->annotate);
+  add_fma_option(*command, verb->options.host_fma);
+  add_time_limit_option(*command, verb->options.time_limit_seconds);
+  add_common_options(*command, verb->common);
+  return {command, [verb] { return verb->run(); }};
+}
+
+}  // namespace twinshade

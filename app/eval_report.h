@@ -1,0 +1,40 @@
+// What eval found, for people, as JSON and as JUnit XML.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/junit.h"
+#include "app/output.h"
+#include "evaluate/cases.h"
+#include "evaluate/compare_outputs.h"
+#include "evaluate/evaluator.h"
+
+namespace twinshade {
+
+struct EvaluatedBackend {
+  std::string name;
+  std::string error;  // why it could not run; empty: it ran
+  EvaluatedRows rows;
+  OutputComparison comparison;
+  double seconds = 0;
+};
+
+struct EvaluatedCase {
+  std::string name;   // of the shader's file, without folder and ending
+  std::string file;   // the shader's
+  std::string error;  // what is wrong with the shader or its cases; empty: nothing
+  Cases cases;
+  std::vector<EvaluatedBackend> backends;
+
+  bool has_error() const;
+  bool pass() const;
+};
+
+// One line a case and backend; where there are many cases, of those alone that did not pass. Then the failures, with
+// inputs, in decimal and as hex floats; then a total.
+std::string eval_text(const std::vector<EvaluatedCase>& cases, bool many);
+Json eval_json(const std::vector<EvaluatedCase>& cases);
+std::vector<JUnitCase> eval_junit(const std::vector<EvaluatedCase>& cases);
+
+}  // namespace twinshade

@@ -1,0 +1,113 @@
+// What bench says hangs together, whatever this machine's speed.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "run_twinshade.h"
+
+namespace twinshade {
+namespace {
+
+std::string first_line(const std::string& path) {
+  std::ifstream in(path);
+  std::string line;
+  std::getline(in, line);
+  return line;
+}
+
+}  // namespace
+
+TEST_CASE("bench times every instruction set in both attribute modes, its stages, and its share of the roofline") {
+  const Folder folder;
+  const Run run = run_twinshade(small_quad(
+      {"bench"}, {"--technique", "lightmap,h6", "--rounds", "2", "--repeat", "1", "-o", folder / "", "--json", "-"}));
+  REQUIRE_MESSAGE((run.code == 0 || !why_missing("egl").empty()), run.err);
+  const nlohmann::json json = run.json();
+  CHECK(folder.names() ==
+        std::vector<std::string>{"bench-stages.png", "bench-stages.svg", "bench.csv", "bench.png", "bench.svg"});
+  CHECK(first_line(folder / "bench.csv").rfind("technique,light,map,renderer,isa", 0) == 0);
+
+  std::set<std::string> isas;
+  std::size_t cpu_rows = 0;
+  for (const auto& [isa, limits] : json["limits"].items()) {
+    isas.insert(isa);
+    CHECK(limits["flops_per_second"].get<double>() > 1e9);
+    CHECK(limits["l1_bytes_per_second"].get<double>() > 1e9);
+    CHECK(limits["l2_bytes_per_second"].get<double>() > 1e9);
+  }
+  CHECK(isas.count("baseline") == 1);
+  for (const auto& row : json["rows"]) {
+    CAPTURE(row.dump());
+    if (row["renderer"] != "cpu") continue;
+    ++cpu_rows;
+    CHECK(isas.count(row["isa"]) == 1);
+    const double ms = row["ms"];
+    CHECK(ms > 0);
+    CHECK(row["ms_q1"].get<double>() <= ms);
+    CHECK(row["ms_q3"].get<double>() >= ms);
+    double stages = 0;
+    for (const char* stage : {"vertex", "bin", "raster", "interpolate", "shade", "store"})
+      stages += row[std::string(stage) + "_ms"].get<double>();
+    CHECK(stages > 0.5 * ms);  // medians of each, and of their sum
+    CHECK(stages < 2 * ms);
+    CHECK(row["ns_per_pixel"].get<double>() ==
+          doctest::Approx(ms * 1e6 / row["shaded_pixels"].get<double>()).epsilon(1e-6));
+    CHECK(row["peak_memory"].get<std::int64_t>() > 1 << 20);
+    CHECK(row["roofline_fraction"].get<double>() > 0);
+    // Two material maps, and the lightmap by fours, one layer alone: four taps of 16 bytes
+    const int layers = row["technique"] == "h6" ? 8 : 1;
+    CHECK(row["texel_bytes_per_pixel"] == 64.0 * (2 + layers));
+    CHECK(row["input_bytes_per_pixel"] == 4.0 * (2 + 2 + 1));
+    CHECK(row["flops_per_pixel"].get<double>() > 28.0 * (2 + layers));  // of the filters
+  }
+  CHECK(cpu_rows == 2 * 2 * isas.size());
+  for (const auto& mean : json["summary"]) {
+    CHECK(mean["techniques"] == 2);
+    double product = 1;
+    for (const auto& row : json["rows"])
+      if (row["isa"] == mean["isa"] && row["attributes"] == mean["attributes"])
+        product *= row["ratio_to_llvmpipe"].get<double>();
+    CHECK(mean["geometric_mean_ratio_to_llvmpipe"].get<double>() == doctest::Approx(std::sqrt(product)));
+  }
+}
+
+TEST_CASE("a shader that discards is timed without a depth prepass, and not skipped") {
+  if (!why_missing("egl").empty()) {
+    MESSAGE("not tested: " << why_missing("egl"));
+    return;
+  }
+  const Run run = run_twinshade(small_quad({"bench"}, {"--technique", "cutout", "--attributes", "native", "--isa",
+                                                       "baseline", "--rounds", "1", "--repeat", "1", "--json", "-"}));
+  REQUIRE_MESSAGE(run.code == 0, run.err);
+  const nlohmann::json rows = run.json()["rows"];
+  REQUIRE(rows.size() == 2);
+  CHECK(rows[0]["renderer"] == "cpu");
+  CHECK(rows[1]["renderer"] == "egl");
+  CHECK(rows[1]["depth_prepass"] == false);
+}
+
+TEST_CASE("scaling measures an axis, and names the axes there are") {
+  const Folder folder;
+  const Run run = run_twinshade(small_quad(
+      {"bench"}, {"--scaling", "threads", "--rounds", "1", "--repeat", "1", "-o", folder / "", "--json", "-"}));
+  REQUIRE_MESSAGE(run.code == 0, run.err);
+  std::set<double> threads;
+  const nlohmann::json rows = run.json()["rows"];
+  for (const auto& row : rows) {
+    CHECK(row["axis"] == "threads");
+    CHECK(row["value"] == row["threads"]);
+    threads.insert(row["value"].get<double>());
+  }
+  CHECK(threads.count(1) == 1);
+  CHECK(folder.names() == std::vector<std::string>{"scaling-threads-memory.png", "scaling-threads-memory.svg",
+                                                   "scaling-threads.png", "scaling-threads.svg", "scaling.csv"});
+  const Run unknown = run_twinshade({"bench", "--scaling", "pixel"});
+  CHECK(unknown.code == 2);
+  CHECK(unknown.err.find("pixels") != std::string::npos);
+  CHECK(run_twinshade({"bench", "--scaling", "all", "--technique", "unc3"}).err.find("lightmaps") != std::string::npos);
+}
+
+}  // namespace twinshade

@@ -1,0 +1,132 @@
+// `check`, run as a user would.
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "run_twinshade.h"
+
+namespace twinshade {
+namespace {
+
+const std::string kHead =
+    "in vec3 a; in vec3 b;\n"
+    "// @input a -4..4\n"
+    "// @input b 0.5..3\n"
+    "layout(location = 0) out vec4 color;\n"
+    "void main() {\n"
+    "  precise float before = a.y - b.y;\n";
+
+std::string planted(const std::string& line) {
+  return kHead + "  float value = " + line + ";\n  color = vec4(value, before, 1.0, 1.0);\n}\n";
+}
+
+constexpr int kPlantedLine = 7;
+
+std::vector<std::string> arguments(const std::string& shader, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> all{"check", shader, "--on", "cpu,egl", "--rows", "512", "--no-timing", "--json", "-"};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+bool names_line(const nlohmann::json& findings, int line) {
+  for (const auto& finding : findings)
+    if (finding["line"] == line) return true;
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("a planted driver-dependent expression is named at its line by lint and by values, and made exact") {
+  if (const std::string reason = why_missing("egl"); !reason.empty()) {
+    MESSAGE("not tested: " << reason);
+    return;
+  }
+  const Folder folder;
+  for (const std::string line : {"a.x * b.x + a.x * b.y", "mix(a.x, b.x, b.z)", "sin(a.x)"}) {
+    CAPTURE(line);
+    const std::string shader = folder.file("planted.frag", planted(line));
+    const Run run = run_twinshade(arguments(shader));
+    CAPTURE(run.err);
+    CHECK(run.code == 1);
+    const nlohmann::json result = run.json()["shaders"][0];
+    CHECK(result["verdict"] == "differs");
+    CHECK(names_line(result["outside_exact_dialect"], kPlantedLine));
+    REQUIRE(result["counterexample"].is_object());
+    CHECK(result["counterexample"]["output"] == "color.x");
+    CHECK(result["counterexample"]["first_line"]["file"] == shader);
+    CHECK(result["counterexample"]["first_line"]["line"] == kPlantedLine);
+    CHECK(names_line(result["counterexample"]["first_line"]["findings"], kPlantedLine));
+    CHECK(result["counterexample"]["constant_folding"] == false);
+
+    const Run exact = run_twinshade(arguments(shader, {"--make-exact"}));
+    CHECK(exact.code == 0);
+    CHECK(exact.json()["shaders"][0]["verdict"] == "same bits");
+    CHECK(exact.json()["shaders"][0]["not_made_exact"].empty());
+  }
+}
+
+TEST_CASE(
+    "what differs in an included file, a loop or a function is named there, at the iteration that first shows it") {
+  if (!why_missing("egl").empty()) return;
+  const Folder folder;
+  folder.file("part.glsl",
+              "\nfloat curve(float x) {\n  float bent = x;\n  for (int i = 0; i < 4; ++i)\n    bent = bent + pow(x, "
+              "float(i));\n  return bent;\n}\n");
+  const std::string shader = folder.file("loop.frag",
+                                         "// @input x 1.5..1.9\nin float x; out vec4 color;\n#include "
+                                         "\"part.glsl\"\nvoid main() {\n  color = vec4(curve(x));\n}\n");
+  const nlohmann::json line = run_twinshade(arguments(shader)).json()["shaders"][0]["counterexample"]["first_line"];
+  CAPTURE(line.dump());
+  CHECK(line["file"].get<std::string>().find("part.glsl") != std::string::npos);
+  CHECK(line["line"] == 5);
+  CHECK(line["occurrence"].get<int>() >= 2);  // pow(x, 0) is 1 everywhere
+}
+
+TEST_CASE("a difference that comes from constant folding is named as such") {
+  if (!why_missing("egl").empty()) return;
+  const Folder folder;
+  const std::string shader = folder.file("folded.frag",
+                                         "in float x; out vec4 color;\n// @input x 0.5..2\nvoid main() {\n  precise "
+                                         "float k = 0.1 * 0.7 + 0.3 / 1.7 * 5.3 - 0.9;\n"
+                                         "  precise float y = x * k;\n  color = vec4(y);\n}\n");
+  const Run run = run_twinshade(arguments(shader));
+  const nlohmann::json example = run.json()["shaders"][0]["counterexample"];
+  CAPTURE(run.out);
+  REQUIRE(example.is_object());
+  CHECK(example["constant_folding"] == true);
+  CHECK(example["first_line"]["line"] == 4);
+}
+
+TEST_CASE("NaN and infinities are inputs where they are asked for, and NaN is one class") {
+  if (!why_missing("egl").empty()) return;
+  const Folder folder;
+  const std::string shader = folder.file("nan.frag",
+                                         "// @input x any\nin float x; out vec4 color;\nvoid main() {\n  precise float "
+                                         "root = sqrt(x);\n  precise float other = x / x;\n"
+                                         "  color = vec4(root, other, x > 1.0 ? 1.0 : 2.0, x == x ? 1.0 : 0.0);\n}\n");
+  const Run run = run_twinshade(arguments(shader));
+  CAPTURE(run.out);
+  CHECK(run.code == 0);
+  CHECK(run.json()["shaders"][0]["verdict"] == "same bits");
+}
+
+TEST_CASE("wrong shaders, ranges and files are refused with their place, the others are checked all the same") {
+  const Folder folder;
+  const std::string bad = folder.file("bad.frag", "out vec4 color;\nvoid main() {\n  color = nothing;\n}\n");
+  const std::string range =
+      folder.file("range.frag", "// @input q 0..1\nin float x; out vec4 color;\nvoid main() { color = vec4(x); }\n");
+  const std::string missing = folder / "missing.frag";
+  const std::string junit = folder / "check.xml";
+  const Run run =
+      run_twinshade({"check", bad, range, missing, "--on", "cpu,egl", "--no-timing", "--json", "-", "--junit", junit});
+  CHECK(run.code == 2);
+  const nlohmann::json shaders = run.json()["shaders"];
+  REQUIRE(shaders.size() == 3);
+  CHECK(shaders[0]["message"].get<std::string>().find(bad + ":3: ") == 0);
+  CHECK(shaders[1]["message"].get<std::string>().find(range + ":1: unknown input 'q'") == 0);
+  CHECK(shaders[2]["message"].get<std::string>().find(missing) == 0);
+  CHECK(run_twinshade({"check", bad, "--on", "cpu"}).code == 2);
+  CHECK(run_twinshade({"check", bad, "--on", "cpu,metal"}).code == 2);
+}
+
+}  // namespace twinshade

@@ -1,0 +1,122 @@
+// eval as its users meet it: exit codes, tables, JSON, JUnit, bad input.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "base/file.h"
+#include "run_twinshade.h"
+
+namespace twinshade {
+namespace {
+
+const std::string kShader =
+    "in vec2 uv; flat in int n;\nuniform float gain;\nout vec2 r; out ivec2 i; out float wide;\n"
+    "void main() {\n  if (n == 9) discard;\n  r = uv * gain; i = ivec2(n, -n); wide = uv.x / 3.0;\n}\n";
+
+// The rows of r that are expected.
+std::string cases(const std::string& r) {
+  return R"({"values": {"inputs": [{"name": "uv", "type": "vec2", "values": [[0.5, 1], [2, 3]]},
+                                   {"name": "n", "type": "int", "values": [4, 5]}],
+                        "uniforms": [{"name": "gain", "type": "float", "values": [2]}],
+                        "outputs": [{"name": "r", "type": "vec2", "values": )" +
+         r + "}]}}";
+}
+
+void check_refused(const std::vector<std::string>& arguments, const std::string& said) {
+  const Run run = run_twinshade(arguments);
+  INFO(run.err);
+  CHECK(run.code == 2);
+  CHECK(run.out.empty());
+  CHECK(run.err.find(said) != std::string::npos);
+  CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
+}
+
+}  // namespace
+
+TEST_CASE("eval passes what is as expected, and answers on every backend") {
+  const Folder folder;
+  const std::string shader = folder.file("a.frag", kShader), json = folder.file("a.json", cases("[[1, 2], [4, 6]]"));
+  std::string on = "cpu";
+  for (const std::string& backend : opengl_backends()) on += "," + backend;
+  const Run run = run_twinshade({"eval", shader, "--cases", json, "--on", on, "--json", "-"});
+  REQUIRE_MESSAGE(run.code == 0, run.err);
+  const auto result = run.json()["cases"][0];
+  CHECK(result["name"] == "a");
+  CHECK(result["rows"] == 2);
+  CHECK(result["pass"] == true);
+  for (const auto& backend : result["backends"]) {
+    CHECK(backend["outputs"]["r"] == nlohmann::json::parse("[[1.0, 2.0], [4.0, 6.0]]"));
+    CHECK(backend["outputs"]["i"] == nlohmann::json::parse("[[4, -4], [5, -5]]"));
+    CHECK(backend["worst"]["ulp"] == 0);
+  }
+  const Run in_double =
+      run_twinshade({"eval", shader, "--cases", json, "--on", "cpu", "--number", "double", "--json", "-"});
+  REQUIRE_MESSAGE(in_double.code == 0, in_double.err);
+  CHECK(in_double.json()["cases"][0]["backends"][0]["outputs"]["wide"][0][0] == 0.5 / 3.0);
+}
+
+TEST_CASE("eval shows a failure with its inputs, in decimal and as hex floats") {
+  const Folder folder;
+  const std::string junit = folder / "out.xml";
+  const Run run = run_twinshade({"eval", folder.file("a.frag", kShader), "--cases",
+                                 folder.file("a.json", cases("[[1, 2], [4, 6.5]]")), "--on", "cpu", "--junit", junit});
+  CHECK(run.code == 1);
+  for (const char* words :
+       {"1 of 2 rows fail", "r.y", "6.5", "0x1.8p+2", "0x1.ap+2", "in uv.x", "in n", "uniform gain"})
+    CHECK_MESSAGE(run.out.find(words) != std::string::npos, words, "\n", run.out);
+  const std::string xml = read_file(junit);
+  CHECK(xml.find("tests=\"1\" failures=\"1\" errors=\"0\"") != std::string::npos);
+  CHECK(xml.find("name=\"a on cpu\"") != std::string::npos);
+}
+
+TEST_CASE("eval runs a folder: a shader that is wrong spoils no other") {
+  const Folder folder;
+  for (const char* name : {"b", "a", "c", "d"}) {
+    folder.file(std::string(name) + ".frag", name[0] == 'c' ? "void main() { x = 1; }\n" : kShader);
+    folder.file(std::string(name) + ".json",
+                name[0] == 'd' ? "{\n[" : cases(name[0] == 'b' ? "[[1, 3], null]" : "[[1, 2], null]"));
+  }
+  const Run run = run_twinshade({"eval", folder / ".", "--on", "cpu", "--json", "-"});
+  CHECK(run.code == 2);
+  const auto all = run.json()["cases"];
+  REQUIRE(all.size() == 4);
+  CHECK(all[0]["pass"] == true);
+  CHECK(all[1]["pass"] == false);
+  CHECK(all[1]["backends"][0]["failed_values"] == 1);
+  CHECK(all[2]["error"].get<std::string>().find("c.frag:1") != std::string::npos);
+  CHECK(all[3]["error"].get<std::string>().find("d.json:2: malformed JSON") != std::string::npos);
+  CHECK(run.err.find("4 shaders: 1 passed, 1 failed, 2 with errors") != std::string::npos);
+}
+
+TEST_CASE("eval refuses what it cannot run in one line") {
+  const Folder folder, empty;
+  const std::string shader = folder.file("a.frag", kShader), json = folder.file("a.json", cases("[[1, 2], [4, 6]]"));
+  check_refused({"eval", shader}, "--cases is missing");
+  check_refused({"eval", folder / ".", "--cases", json}, "have their cases in NAME.json");
+  check_refused({"eval", empty / "."}, "no shaders in it");
+  check_refused({"eval", folder / "none.frag", "--cases", json}, "none.frag");
+  check_refused({"eval", shader, "--cases", folder / "none.json"}, "none.json");
+  check_refused({"eval", shader, "--cases", json, "--on", "cqu"}, "did you mean 'cpu'");
+  check_refused({"eval", shader, "--cases", json, "--number", "lanes5"}, "did you mean 'lanes4'");
+  check_refused(
+      {"eval", shader, "--cases",
+       folder.file("b.json", R"({"values": {"inputs": [{"name": "vu", "type": "vec2", "values": [[1, 2]]}]}})"), "--on",
+       "cpu"},
+      "input n (int) has no values in the table");
+  empty.file("lonely.frag", kShader);
+  check_refused({"eval", empty / "."}, "lonely.frag has no lonely.json beside it");
+}
+
+TEST_CASE("a backend that cannot run is named with its reason, and the others' results stay") {
+  const Folder folder;
+  ::setenv("TWINSHADE_WORKER", "/nonexistent/worker", 1);
+  const Run run = run_twinshade({"eval", folder.file("a.frag", kShader), "--cases",
+                                 folder.file("a.json", cases("[[1, 2], [4, 6]]")), "--on", "cpu,egl", "--json", "-"});
+  ::unsetenv("TWINSHADE_WORKER");
+  CHECK(run.code == 2);
+  const auto backends = run.json()["cases"][0]["backends"];
+  CHECK(backends[0]["worst"]["ulp"] == 0);
+  CHECK(backends[1]["error"].get<std::string>().find("egl: ") == 0);
+}
+
+}  // namespace twinshade

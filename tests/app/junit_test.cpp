@@ -1,0 +1,23 @@
+#include "app/junit.h"
+
+#include <doctest/doctest.h>
+
+using twinshade::github_annotations;
+using twinshade::JUnitCase;
+using Result = JUnitCase::Result;
+
+TEST_CASE("an annotation stands at the line that the message begins with, else at the shader") {
+  CHECK(github_annotations({{"fine", Result::passed, "", "", 0, "fine.frag", 3}}) == "");
+  CHECK(github_annotations(
+            {{"a", Result::error, "lib/noise.glsl:12: 'x' : undeclared identifier", "", 0, "a.frag", 0}}) ==
+        "::error file=lib/noise.glsl,line=12,title=a::lib/noise.glsl:12: 'x' : undeclared identifier\n");
+  CHECK(github_annotations({{"b on egl", Result::failed, "2 of 3 rows differ", "", 0, "b.frag", 0}}) ==
+        "::error file=b.frag,title=b on egl::2 of 3 rows differ\n");
+  CHECK(github_annotations({{"c", Result::failed, "differs", "", 0, "c.frag", 7}}) ==
+        "::error file=c.frag,line=7,title=c::differs\n");
+}
+
+TEST_CASE("what would end a workflow command is escaped") {
+  CHECK(github_annotations({{"a,b: 100%", Result::failed, "x\ny", "50%\r", 0, "", 0}}) ==
+        "::error title=a%2Cb%3A 100%25::x%0Ay%0A50%25%0D\n");
+}

@@ -298,7 +298,7 @@ template <int n>
 glm::mat<n, n, double> matrix_at(const Arguments& r, bool dominant) {
   glm::mat<n, n, double> m;
   for (int c = 0; c < n; ++c)
-    for (int k = 0; k < n; ++k) m[c][k] = double(r.x[std::size_t(c * n + k)]) + (dominant && c == k ? 4 : 0);
+    for (int k = 0; k < n; ++k) m[c][k] = double(r.x[std::size_t(c * n + k)]) + (dominant && c == k ? 8 : 0);
   return m;
 }
 template <class M>
@@ -309,7 +309,7 @@ Values entries_of(const M& m) {
   return values;
 }
 
-// 4 on the diagonal keeps them far from singular.
+// 8 on the diagonal keeps them far from singular: more than the rest of a row together.
 template <int n>
 void square_of(Table& t) {
   const std::string type = "mat" + std::to_string(n), vector = "vec" + std::to_string(n);
@@ -318,13 +318,13 @@ void square_of(Table& t) {
       [](const Arguments& r) {
         return Truth{{Real(glm::determinant(matrix_at<n>(r, true)))}, 100};
       },
-      "a += " + type + "(4.0); float result = determinant(a);");
+      "a += " + type + "(8.0); float result = determinant(a);");
   t.add(
       "inverse(a), " + type, {type}, {kUnit}, type, 8,
       [](const Arguments& r) {
         return Truth{entries_of(glm::inverse(matrix_at<n>(r, true))), 0.25L};
       },
-      "a += " + type + "(4.0); " + type + " result = inverse(a);");
+      "a += " + type + "(8.0); " + type + " result = inverse(a);");
   t.add(
       type + " * " + vector, {type, vector}, {kUnit, kUnit}, vector, 4,
       [](const Arguments& r) {

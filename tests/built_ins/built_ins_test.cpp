@@ -256,7 +256,8 @@ from the C library in long double, GLM in double, and integer arithmetic in 64 b
 
 A number is the worst error in units in the last place (ULP) of the true value: 0.5 is the nearest float. Sums count it in ULP of their greatest
 term, or of the bound of their terms: below that rounding leaves nothing to measure. *exact*: every row is the true value; of integers and packed words the
-table counts the rows that are not. *(log)*: magnitudes over 60 powers of two below the greatest, evenly in their logarithm. llvmpipe runs without
+table counts the rows that are not. *(log)*: magnitudes over 60 powers of two below the greatest, evenly in their logarithm. Matrices have 8 added on the diagonal before their
+determinant or inverse is taken. llvmpipe runs without
 fused multiply-add, so that its column is the same on every processor.
 
 Ours are the same bits everywhere; none of these but `sqrt`, `abs`, `floor`, `ceil`, `trunc`, `min`, `max`, `clamp`, `step` and the integer functions is

@@ -58,6 +58,8 @@ void write_rows(const std::string& path, std::uint32_t width, std::uint32_t heig
       spec.attribute("compression", "zip");
     else
       spec.attribute("oiio:ColorSpace", "sRGB");
+    // The library would put the time of writing into EXR files: the same picture is to be the same bytes.
+    spec.attribute("DateTime", "1970:01:01 00:00:00");
     for (const auto& [key, value] : options.notes) spec.attribute("twinshade:" + key, value);
     if (!out->open(temporary, spec)) refuse(out->geterror());
     const auto row = OIIO::stride_t(std::size_t(width) * channels * sizeof(T));

@@ -3,14 +3,17 @@
 #include <OpenImageIO/imageio.h>
 
 #include <doctest/doctest.h>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <thread>
 
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/file.h"
 
 namespace twinshade {
 namespace {
@@ -66,6 +69,18 @@ TEST_CASE("EXR keeps every bit of the colour, top row first") {
   for (std::size_t y = 0; y < 3; ++y)
     CHECK(std::memcmp(&image.values[(2 - y) * 5 * 4], &frame.color[y * 5 * 4], 5 * 4 * sizeof(float)) == 0);
   CHECK(folder.count() == 1);
+}
+
+TEST_CASE("the same picture is the same bytes whenever it is written") {
+  const Folder folder;
+  const Frame frame = frame_of(5, 3);
+  for (const char* name : {"a.exr", "a.png"}) {
+    write_picture(folder.file(name), frame, {});
+    const std::string first = read_file(folder.file(name));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // files tell seconds
+    write_picture(folder.file(name), frame, {});
+    CHECK(read_file(folder.file(name)) == first);
+  }
 }
 
 TEST_CASE("HDR keeps radiance to its shared exponent's precision and has no negative values") {

@@ -1,19 +1,18 @@
 // How fast visibility is baked, against Embree alone: the bake (watertight test in double behind padded boxes, sums of
 // 36 functions), then the same rays against the same triangles as Embree's own geometry, results thrown away but for a
 // count.  visibility_bake_bench [LIGHTMAP [RAYS]], default 512 and 1024, scene house, all processors.
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
-#include <limits>
 
 #include "base/parallel.h"
 #include "lighting/receivers.h"
 #include "lighting/sphere_sets.h"
 #include "lighting/visibility_bake.h"
+#include "tests/bench/plain_embree.h"
 
 namespace {
 
@@ -22,43 +21,6 @@ using namespace twinshade;
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
-
-// The scene as Embree's own triangles, built as a user who wants speed would.
-class PlainEmbree {
- public:
-  explicit PlainEmbree(const Scene& scene) : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
-    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, scene.positions.data(), 0,
-                               sizeof(glm::vec3), scene.positions.size());
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, scene.indices.data(), 0,
-                               3 * sizeof(std::uint32_t), scene.triangle_count());
-    rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene_, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene_);
-  }
-  ~PlainEmbree() {
-    rtcReleaseScene(scene_);
-    rtcReleaseDevice(device_);
-  }
-
-  bool occluded(const glm::vec3& origin, const glm::vec3& direction) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    RTCRay ray{};
-    ray.org_x = origin.x, ray.org_y = origin.y, ray.org_z = origin.z;
-    ray.dir_x = direction.x, ray.dir_y = direction.y, ray.dir_z = direction.z;
-    ray.tfar = std::numeric_limits<float>::infinity();
-    ray.mask = ~0u;
-    rtcOccluded1(scene_, &context, &ray);
-    return ray.tfar < 0;
-  }
-
- private:
-  RTCDevice device_;
-  RTCScene scene_;
-};
 
 }  // namespace
 

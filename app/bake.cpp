@@ -1,5 +1,6 @@
 // bake: everything a renderer needs, in one file.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <filesystem>
 #include <memory>

@@ -1,5 +1,6 @@
 // bench: what a frame costs, ours against llvmpipe's in the same run.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <filesystem>
 #include <memory>

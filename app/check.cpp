@@ -1,5 +1,6 @@
 // check: anyone's GLSL on every machine, over generated inputs.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <chrono>
 #include <filesystem>

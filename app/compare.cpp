@@ -1,5 +1,6 @@
 // compare: the same bundle and the same shader on several machines, bit by bit.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <filesystem>

@@ -1,5 +1,6 @@
 // eval: shaders over tables of inputs, against the outputs that are expected.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <chrono>

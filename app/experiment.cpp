@@ -1,5 +1,6 @@
 // experiment: what a basis or map costs in accuracy, as table, CSV, JSON and pictures.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <filesystem>
 #include <memory>

@@ -1,5 +1,6 @@
 // list: what there is to draw, to draw with and to draw on.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <memory>

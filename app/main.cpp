@@ -1,5 +1,6 @@
 // twinshade: one GLSL shading function, two machines, compared bit by bit.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdio>

@@ -1,7 +1,6 @@
 // Options that several verbs share, each declared, parsed and checked in one place.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
@@ -14,6 +13,10 @@
 #include "lighting/visibility_bundle.h"
 #include "raster/renderer.h"
 #include "scenes/scene.h"
+
+namespace CLI {
+class App;
+}
 
 namespace twinshade {
 

@@ -1,5 +1,6 @@
 // render: one frame, as a picture.
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <memory>
 

@@ -2,6 +2,7 @@
 #include "cpu_shaders/translate/translate.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <filesystem>
 #include <memory>

@@ -15,8 +15,20 @@ if(TWINSHADE_SANITIZE)
     "$<$<NOT:$<BOOL:$<TARGET_PROPERTY:TWINSHADE_UNSANITIZED>>>:${sanitize}>")
   target_link_options(twinshade_flags INTERFACE -fsanitize=${TWINSHADE_SANITIZE})
 endif()
-string(REPLACE "-O2" "-O3" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
+string(REPLACE "-O3" "-O2" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
+# -O3 where pixels and rays are counted, -O1 where a build takes longer than the program ever runs.
+set(TWINSHADE_HOT "$<$<CONFIG:Release>:-O3>")
+set(TWINSHADE_COLD "$<$<CONFIG:Release>:-O1>")
 # Release keeps its checks of invariants: they do not use NDEBUG.
+
+# A quarter of the time of the default linker, and part of the same package. Not with sanitizers, whose runtimes are not tried with it.
+if(NOT TWINSHADE_SANITIZE)
+  include(CheckLinkerFlag)
+  check_linker_flag(CXX -fuse-ld=gold TWINSHADE_GOLD)
+  if(TWINSHADE_GOLD)
+    add_link_options(-fuse-ld=gold)
+  endif()
+endif()
 
 # Instruction sets and the number types that are built for each (bits of enum Number: lanes4 1, lanes8 2, lanes16 4,
 # scalar 8, float64 16).
@@ -44,7 +56,7 @@ function(twinshade_isa_objects name out)
       target_precompile_headers(${name}_${isa} PRIVATE ${CMAKE_SOURCE_DIR}/${O_HEADER})
     endif()
     target_link_libraries(${name}_${isa} PRIVATE twinshade_flags)
-    target_compile_options(${name}_${isa} PRIVATE ${TWINSHADE_ISA_FLAGS_${isa}})
+    target_compile_options(${name}_${isa} PRIVATE ${TWINSHADE_ISA_FLAGS_${isa}} ${TWINSHADE_HOT})
     target_compile_definitions(${name}_${isa} PRIVATE TWINSHADE_ISA=${isa} TWINSHADE_NUMBERS=${TWINSHADE_NUMBERS_${isa}})
     list(APPEND objects $<TARGET_OBJECTS:${name}_${isa}>)
   endforeach()
@@ -57,11 +69,29 @@ function(twinshade_library name)
   target_link_libraries(${name} PUBLIC twinshade_flags)
 endfunction()
 
-# A doctest executable, registered with CTest as one test of the same name. LABELS slow for those outside the default run.
+# What `cmake --build` makes only when asked: `--target slow_tests`, `--target benches`.
+add_custom_target(slow_tests)
+add_custom_target(benches)
+function(twinshade_on_request group)
+  set_target_properties(${ARGN} PROPERTIES EXCLUDE_FROM_ALL ON)
+  add_dependencies(${group} ${ARGN})
+endfunction()
+
+# A doctest executable, registered with CTest as one test of the same name. LABELS slow for those outside the default run and build. GL for
+# those that draw with OpenGL, where it is built: their main() can become a GL worker.
 function(twinshade_test name)
-  cmake_parse_arguments(T "" "LABELS" "SOURCES;LIBRARIES" ${ARGN})
-  add_executable(${name} ${T_SOURCES} ${CMAKE_SOURCE_DIR}/tests/main.cpp)
+  cmake_parse_arguments(T "GL" "LABELS" "SOURCES;LIBRARIES" ${ARGN})
+  if(T_GL AND TWINSHADE_GL)
+    set(main gl_test_main)
+    list(APPEND T_LIBRARIES twinshade_gl)
+  else()
+    set(main test_main)
+  endif()
+  add_executable(${name} ${T_SOURCES} $<TARGET_OBJECTS:${main}>)
   target_link_libraries(${name} PRIVATE twinshade_flags ${T_LIBRARIES})
+  target_compile_definitions(${name} PRIVATE TWINSHADE_HAS_GL=$<BOOL:${TWINSHADE_GL}>)
+  # GCC bug 105651: it sees overlaps in "text" + std::string.
+  target_compile_options(${name} PRIVATE ${TWINSHADE_COLD} $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
   target_compile_definitions(${name} PRIVATE TWINSHADE_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES TIMEOUT 900)
@@ -71,5 +101,8 @@ function(twinshade_test name)
   endif()
   if(T_LABELS)
     set_tests_properties(${name} PROPERTIES LABELS ${T_LABELS})
+    if(slow IN_LIST T_LABELS)
+      twinshade_on_request(slow_tests ${name})
+    endif()
   endif()
 endfunction()

@@ -1,26 +1,17 @@
 #include "golden/pictures.h"
 
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 
 #include "base/error.h"
-#include "base/file.h"
 #include "base/parallel.h"
 #include "base/portable_math.h"
 #include "golden/compare_frames.h"
+#include "images/image_file.h"
 
 namespace twinshade {
 namespace {
-
-std::string ending_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  for (char& c : ending) c = (c >= 'A' && c <= 'Z') ? char(c - 'A' + 'a') : c;
-  return ending;
-}
 
 double tone_curve(double x, Tonemap tonemap) {
   switch (tonemap) {
@@ -43,31 +34,9 @@ double srgb_encoded(double linear) {
 template <class T>
 void write_rows(const std::string& path, std::uint32_t width, std::uint32_t height, int channels,
                 const std::vector<T>& y_up, const PictureOptions& options) {
-  constexpr bool is_float = sizeof(T) == 4;
-  write_file_with(path, [&](const std::string& temporary) {
-    const auto refuse = [&](const std::string& reason) {
-      std::string line = reason.substr(0, reason.find('\n'));
-      // The library names the temporary file; the user knows only the final one.
-      if (const auto at = line.find(temporary); at != std::string::npos) line.replace(at, temporary.size(), path);
-      throw UserError(path + ": cannot be written: " + (line.empty() ? "unknown reason" : line));
-    };
-    auto out = OIIO::ImageOutput::create(temporary);
-    if (!out) refuse(OIIO::geterror());
-    OIIO::ImageSpec spec(int(width), int(height), channels, is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
-    if (is_float)
-      spec.attribute("compression", "zip");
-    else
-      spec.attribute("oiio:ColorSpace", "sRGB");
-    // The library would put the time of writing into EXR files: the same picture is to be the same bytes.
-    spec.attribute("DateTime", "1970:01:01 00:00:00");
-    for (const auto& [key, value] : options.notes) spec.attribute("twinshade:" + key, value);
-    if (!out->open(temporary, spec)) refuse(out->geterror());
-    const auto row = OIIO::stride_t(std::size_t(width) * channels * sizeof(T));
-    const T* last_row = y_up.data() + std::size_t(height - 1) * width * channels;
-    if (!out->write_image(is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8, last_row, OIIO::AutoStride, -row))
-      refuse(out->geterror());
-    if (!out->close()) refuse(out->geterror());
-  });
+  const std::size_t row = std::size_t(width) * channels;
+  write_image_file(path, {width, height, channels, sizeof(T) == 4, y_up.data() + (height - 1) * row,
+                          -std::ptrdiff_t(row * sizeof(T)), options.notes});
 }
 
 using Rgb = std::array<unsigned char, 3>;
@@ -127,7 +96,7 @@ unsigned char display_value(double radiance, double exposure, Tonemap tonemap) {
 }
 
 void require_picture_ending(const std::string& path) {
-  const std::string ending = ending_of(path);
+  const std::string ending = lower_case_ending(path);
   if (ending != ".exr" && ending != ".hdr" && ending != ".png")
     throw UserError(path + ": unknown kind of picture; end the name in .exr, .hdr or .png");
 }
@@ -135,7 +104,7 @@ void require_picture_ending(const std::string& path) {
 void write_picture(const std::string& path, const Frame& frame, const PictureOptions& options) {
   require_picture_ending(path);
   TWINSHADE_CHECK_EQ(frame.color.size(), std::size_t(frame.width) * frame.height * 4);
-  const std::string ending = ending_of(path);
+  const std::string ending = lower_case_ending(path);
   const std::size_t pixels = std::size_t(frame.width) * frame.height;
   if (ending == ".exr") {
     write_rows(path, frame.width, frame.height, 4, frame.color, options);
@@ -161,7 +130,7 @@ void write_picture(const std::string& path, const Frame& frame, const PictureOpt
 void write_difference_picture(const std::string& path, const Frame& a, const Frame& b) {
   TWINSHADE_CHECK_EQ(a.width, b.width);
   TWINSHADE_CHECK_EQ(a.height, b.height);
-  if (ending_of(path) != ".png") throw UserError(path + ": a picture of differences must end in .png");
+  if (lower_case_ending(path) != ".png") throw UserError(path + ": a picture of differences must end in .png");
   std::vector<unsigned char> rgb(std::size_t(a.width) * a.height * 3);
   parallel_for(a.height, [&](std::size_t y, int) {
     for (std::size_t i = y * a.width; i < (y + 1) * a.width; ++i) {

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "scenes/image_file.h"
+#include "images/image_file.h"
 
 namespace twinshade {
 namespace {

@@ -1,7 +1,7 @@
 // From image files to what materials hold: row 0 at the bottom, linear colours, unit normals.
 #pragma once
 
-#include "scenes/image_file.h"
+#include "images/image_file.h"
 #include "scenes/scene.h"
 
 namespace twinshade {

@@ -10,9 +10,9 @@
 
 #include "base/error.h"
 #include "base/portable_math.h"
+#include "images/image_file.h"
 #include "scenes/face_normals.h"
 #include "scenes/gltf_model.h"
-#include "scenes/image_file.h"
 #include "scenes/lightmap_check.h"
 #include "scenes/mikktspace.h"
 #include "scenes/model_part.h"

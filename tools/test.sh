@@ -16,12 +16,13 @@ build() { cmake --preset "$1" >/dev/null && cmake --build --preset "$1"; }
 
 build release
 if [ $all = no ]; then
-  ctest --preset release --label-exclude slow
+  ctest --preset release --parallel 2 --label-exclude slow
   exit
 fi
-ctest --preset release
+cmake --build --preset release --target slow_tests benches
+ctest --preset release --parallel 2
 for preset in clang asan tsan; do
   build $preset
-  ctest --preset $preset --label-exclude "slow|across-builds"
+  ctest --preset $preset --parallel 2 --label-exclude "slow|across-builds"
 done
 tools/same_bits.sh build/release/twinshade build/clang/twinshade

@@ -367,7 +367,9 @@ class ModuleEmitter {
                        "#ifdef __clang__\n"
                        "#pragma clang diagnostic ignored \"-Wself-assign-overloaded\"\n"
                        "#endif\n\n"
-                       "namespace twinshade {\ninline namespace TWINSHADE_ISA_NAMESPACE {\nnamespace {\n\n"
+                       "namespace twinshade {\ninline namespace TWINSHADE_ISA_NAMESPACE {\nnamespace shader_" +
+                       translation_.identifier +
+                       " {\nnamespace {\n\n"
                        "template <class N>\nstruct Shader : ShaderBase<N> {\n  using Base = ShaderBase<N>;\n";
     for (const char* name : {"kept", "live", "frag_coord", "front_facing", "primitive_id", "frag_depth", "output"})
       text += std::string("  using Base::") + name + ";\n";

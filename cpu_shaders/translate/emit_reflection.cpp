@@ -94,8 +94,11 @@ std::string reflection_text(const Reflection& r, const ShaderSource& source, con
   table("ShaderResource", "kResources", resources);
 
   const std::string scalar = r.uses_derivatives ? "Quad" : "Scalar";
-  t += "}  // namespace\n}  // namespace TWINSHADE_ISA_NAMESPACE\n\n";
+  // Its own namespace, so that several translations can share a unit.
+  const std::string own = "shader_" + id + "::";
+  t += "}  // namespace\n}  // namespace shader_" + id + "\n}  // namespace TWINSHADE_ISA_NAMESPACE\n\n";
   // A shared object has one module; linked objects leave their entries to whoever joins them.
+  t += "#undef TWINSHADE_ENTRIES\n#undef TWINSHADE_ENTRY_COUNT\n";
   t += "#if defined(TWINSHADE_SHARED_OBJECT)\n#define TWINSHADE_ENTRIES entries\n#define TWINSHADE_ENTRY_COUNT "
        "entry_count\n#else\n";
   t += "#define TWINSHADE_ENTRIES TWINSHADE_JOIN(twinshade_entries_" + id + "_, TWINSHADE_ISA)\n";
@@ -104,7 +107,7 @@ std::string reflection_text(const Reflection& r, const ShaderSource& source, con
   t += "const ShaderEntry TWINSHADE_ENTRIES[] = {\n";
   const auto entry = [&](int bit, const std::string& number, const std::string& policy) {
     t += "#if TWINSHADE_NUMBERS & " + std::to_string(bit) + "\n    {Isa(TWINSHADE_ISA_NUMBER), Number::" + number +
-         ", shade_all<Shader, " + policy + ">},\n#endif\n";
+         ", shade_all<" + own + "Shader, " + policy + ">},\n#endif\n";
   };
   entry(1, "lanes4", "Lanes<4>");
   entry(2, "lanes8", "Lanes<8>");
@@ -114,8 +117,8 @@ std::string reflection_text(const Reflection& r, const ShaderSource& source, con
   t += "    {Isa(TWINSHADE_ISA_NUMBER), Number::scalar, nullptr}};  // the end, not counted\n";
   t += "const std::uint32_t TWINSHADE_ENTRY_COUNT = sizeof TWINSHADE_ENTRIES / sizeof *TWINSHADE_ENTRIES - 1;\n\n";
 
-  const auto array = [](bool empty, const char* name) {
-    return empty ? std::string("nullptr, 0") : std::string(name) + ", sizeof " + name + " / sizeof *" + name;
+  const auto array = [&](bool empty, const char* name) {
+    return empty ? std::string("nullptr, 0") : own + name + ", sizeof " + own + name + " / sizeof *" + own + name;
   };
   const auto module = [&](const std::string& entries) {
     std::string m = "    kAbiVersion,\n    " + quoted(source.name) + ",\n    " + quoted(source_hash(source)) + ",\n";

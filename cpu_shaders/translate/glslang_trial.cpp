@@ -1,6 +1,7 @@
 #include "cpu_shaders/translate/glslang_trial.h"
 
 #include <fcntl.h>
+#include <malloc.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -47,6 +48,8 @@ void limit(__rlimit_resource resource, rlim_t value) {
   std::ifstream("/proc/self/statm") >> pages;
   limit(RLIMIT_AS, pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + kMostBytes);
 #endif
+  // What was never written is no pointer to anything: reading it crashes here, not by luck somewhere else.
+  mallopt(M_PERTURB, 0x5a);
   try {
     work();
   } catch (const std::bad_alloc&) {

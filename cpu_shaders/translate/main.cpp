@@ -1,8 +1,8 @@
 // The build's translator: one shader becomes one C++ file.
-//   twinshade-translate NAME KIND IDENTIFIER OUT.cpp
-//     NAME: of lighting/registry.def or lighting/sphere_maps.def. KIND: lightmap, vertex or volume (the technique's
-//     fragment shader with that coefficient storage), basis_values, basis_irradiance, map_taps or map_direction (for
-//     the host).
+//   twinshade-translate --list FILE FOLDER
+//     FILE has a line NAME KIND IDENTIFIER for each shader, which becomes FOLDER/IDENTIFIER.cpp. NAME: of
+//     lighting/registry.def or lighting/sphere_maps.def. KIND: lightmap, vertex or volume (the technique's fragment
+//     shader with that coefficient storage), basis_values, basis_irradiance, map_taps or map_direction (for the host).
 //   twinshade-translate FILE.frag [-I FOLDER]... [--name IDENTIFIER] [--readable] -o OUT.cpp
 //                       [--header FOLDER --isas ISA,...] [--depfile OUT.d]
 //     --header: IDENTIFIER.h and IDENTIFIER_calls.cpp, typed C++ (cpu_shaders/package/cpp_header.h). --depfile: the
@@ -10,11 +10,14 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/parallel.h"
 #include "cpu_shaders/package/cpp_header.h"
 #include "cpu_shaders/translate/cpp_keywords.h"
 #include "cpu_shaders/translate/translate.h"
@@ -26,7 +29,7 @@ using namespace twinshade;
 namespace {
 
 constexpr const char* kUsage =
-    "usage: twinshade-translate NAME KIND IDENTIFIER OUT.cpp\n"
+    "usage: twinshade-translate --list FILE FOLDER\n"
     "       twinshade-translate FILE.frag [-I FOLDER]... [--name IDENTIFIER] [--readable] -o OUT.cpp\n"
     "                           [--header FOLDER --isas ISA,...] [--depfile OUT.d]";
 
@@ -87,16 +90,22 @@ Job job_of(const std::vector<std::string>& arguments) {
     else
       names.push_back(arguments[k]);
   }
-  if (names.size() == 4 && job.output.empty()) {
-    job.source = builtin_source(names[0], names[1]);
-    job.options.identifier = names[2];
-    job.output = names[3];
-  } else if (names.size() == 1 && !job.output.empty()) {
-    job.source = load_shader(names[0], folders);
-  } else {
-    throw UserError(kUsage);
-  }
+  if (names.size() != 1 || job.output.empty()) throw UserError(kUsage);
+  job.source = load_shader(names[0], folders);
   return job;
+}
+
+// The built-in shaders of a list.
+std::vector<Job> jobs_of(const std::string& list, const std::string& folder) {
+  std::vector<Job> jobs;
+  std::istringstream lines(read_file(list));
+  for (std::string name, kind, identifier; lines >> name >> kind >> identifier;) {
+    Job& job = jobs.emplace_back();
+    job.source = builtin_source(name, kind);
+    job.output = (std::filesystem::path(folder) / (identifier + ".cpp")).string();
+    job.options.identifier = std::move(identifier);
+  }
+  return jobs;
 }
 
 // An unchanged file keeps its time, so that a changed shader recompiles only itself. Not with a depfile: the build tool
@@ -138,15 +147,24 @@ std::string depfile_of(const Job& job) {
   return text + '\n';
 }
 
+void run(const Job& job) {
+  const Translation translation = translate(job.source, job.options);
+  if (!job.header_folder.empty()) write_typed_cpp(job, translation);
+  if (!job.depfile.empty()) write_file(job.depfile, depfile_of(job));
+  if (!job.depfile.empty() || !has_content(job.output, translation.cpp)) write_file(job.output, translation.cpp);
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
   try {
-    const Job job = job_of({arguments + 1, arguments + count});
-    const Translation translation = translate(job.source, job.options);
-    if (!job.header_folder.empty()) write_typed_cpp(job, translation);
-    if (!job.depfile.empty()) write_file(job.depfile, depfile_of(job));
-    if (!job.depfile.empty() || !has_content(job.output, translation.cpp)) write_file(job.output, translation.cpp);
+    const std::vector<std::string> words(arguments + 1, arguments + count);
+    if (words.size() == 3 && words[0] == "--list") {
+      const std::vector<Job> jobs = jobs_of(words[1], words[2]);
+      parallel_for(jobs.size(), [&](std::size_t k, int) { run(jobs[k]); });
+    } else {
+      run(job_of(words));
+    }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "twinshade-translate: %s\n", error.what());
     return 2;

@@ -142,7 +142,8 @@ double Uniform::operator()(double low, double high) {
 
 glm::dvec3 Uniform::direction() {
   for (;;) {
-    const glm::dvec3 v((*this)(), (*this)(), (*this)());
+    glm::dvec3 v;
+    for (int axis = 0; axis < 3; ++axis) v[axis] = (*this)();  // arguments of one call have no order
     const double square = glm::dot(v, v);
     if (square > 1e-4 && square <= 1) return glm::dvec3(glm::vec3(v / std::sqrt(square)));
   }

@@ -1,4 +1,4 @@
-#include "scenes/image_file.h"
+#include "images/image_file.h"
 
 #include <doctest/doctest.h>
 

@@ -104,7 +104,8 @@ TEST_CASE("the size of the cache is read with its unit, and nonsense is refused 
                                    {"3G", 3ull << 30},
                                    {"1T", 1ull << 40}}) {
     setenv("TWINSHADE_CACHE_SIZE", text, 1);
-    CHECK_MESSAGE(cache_size_limit() == size, text);
+    const std::string given = text;  // clang++ captures no structured bindings
+    CHECK_MESSAGE(cache_size_limit() == size, given);
   }
   for (const char* text : {"many", "5X", "5MB", "-1", "1.5G", "M", "99999999999T", "99999999999999999999"}) {
     setenv("TWINSHADE_CACHE_SIZE", text, 1);

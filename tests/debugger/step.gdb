@@ -1,3 +1,5 @@
+# clang++ describes constants that no object file keeps.
+set print static-members off
 set pagination off
 set confirm off
 set width 0

@@ -143,7 +143,7 @@ double Uniform::operator()(double low, double high) {
 glm::dvec3 Uniform::direction() {
   for (;;) {
     glm::dvec3 v;
-    for (int axis = 0; axis < 3; ++axis) v[axis] = (*this)();  // arguments of one call have no order
+    for (int axis = 2; axis >= 0; --axis) v[axis] = (*this)();  // one by one: arguments of a call have no order
     const double square = glm::dot(v, v);
     if (square > 1e-4 && square <= 1) return glm::dvec3(glm::vec3(v / std::sqrt(square)));
   }

@@ -13,6 +13,15 @@ struct Simd;
 template <int W>
 struct SimdMask;
 
+// Whether SimdMask<W> is a mask register, rather than lanes of 0 or -1.
+#if defined(__AVX512F__)
+template <int W>
+inline constexpr bool kMaskRegister = W == 16;
+#else
+template <int W>
+inline constexpr bool kMaskRegister = false;
+#endif
+
 namespace detail {
 template <class V, class Half, bool whole>
 struct Storage {
@@ -166,6 +175,66 @@ struct SimdMask : SimdBase<SimdMask<W>, SimdMask<W / 2>, std::int32_t, W> {
   friend TWINSHADE_INLINE bool none(SimdMask m) { return !any(m); }
 };
 
+#if defined(__AVX512F__)
+// Sixteen lanes: a mask register, whose bit i is lane i.
+template <>
+struct SimdMask<16> {
+  using element = bool;
+  static constexpr int width = 16;
+  static constexpr bool is_lanes = true;
+  static constexpr bool whole = true;
+  template <class G>
+  using with = typename detail::SimdOf<G, 16>::type;
+  __mmask16 m;
+
+  SimdMask() = default;
+  TWINSHADE_INLINE explicit SimdMask(__mmask16 bits) : m(bits) {}
+  template <std::same_as<bool> T>
+  TWINSHADE_INLINE SimdMask(T x) : m(x ? 0xffff : 0) {}
+  TWINSHADE_INLINE SimdMask(Plain<bool, 1> x) : SimdMask(x.e[0]) {}
+
+  TWINSHADE_INLINE bool lane(int i) const { return (m >> i & 1) != 0; }
+  TWINSHADE_INLINE void set_lane(int i, bool x) {
+    m = static_cast<__mmask16>((m & ~(1u << i)) | (static_cast<unsigned>(x) << i));
+  }
+  static TWINSHADE_INLINE SimdMask load(const std::uint32_t* from) {
+    Register<std::int32_t, 16> words;
+    std::memcpy(&words, from, sizeof words);
+    return SimdMask(registers::mask_of(words));
+  }
+  TWINSHADE_INLINE void store(std::uint32_t* to) const {
+    const auto words = registers::blend(m, registers::splat<std::uint32_t, 16>(~0u), Register<std::uint32_t, 16>{});
+    std::memcpy(to, &words, sizeof words);
+  }
+  TWINSHADE_INLINE std::uint32_t bits() const { return m; }
+  template <class G>
+  TWINSHADE_INLINE with<G> to() const {  // 1 where set
+    if constexpr (std::same_as<G, bool>)
+      return *this;
+    else
+      return select(*this, with<G>(G{1}), with<G>(G{0}));
+  }
+
+  friend TWINSHADE_INLINE SimdMask operator&(SimdMask a, SimdMask b) { return made(a.m & b.m); }
+  friend TWINSHADE_INLINE SimdMask operator|(SimdMask a, SimdMask b) { return made(a.m | b.m); }
+  friend TWINSHADE_INLINE SimdMask operator^(SimdMask a, SimdMask b) { return made(a.m ^ b.m); }
+  friend TWINSHADE_INLINE SimdMask operator!(SimdMask a) { return made(~a.m); }
+  friend TWINSHADE_INLINE SimdMask operator&&(SimdMask a, SimdMask b) { return a & b; }
+  friend TWINSHADE_INLINE SimdMask operator||(SimdMask a, SimdMask b) { return a | b; }
+  friend TWINSHADE_INLINE SimdMask operator!=(SimdMask a, SimdMask b) { return a ^ b; }
+  friend TWINSHADE_INLINE SimdMask operator==(SimdMask a, SimdMask b) { return !(a ^ b); }
+  friend TWINSHADE_INLINE SimdMask select(SimdMask c, SimdMask a, SimdMask b) {
+    return made((c.m & a.m) | (~c.m & b.m));
+  }
+  friend TWINSHADE_INLINE bool any(SimdMask a) { return a.m != 0; }
+  friend TWINSHADE_INLINE bool all(SimdMask a) { return a.m == 0xffff; }
+  friend TWINSHADE_INLINE bool none(SimdMask a) { return a.m == 0; }
+
+ private:
+  static TWINSHADE_INLINE SimdMask made(int bits) { return SimdMask(static_cast<__mmask16>(bits)); }
+};
+#endif
+
 template <class E, int W>
 struct Simd : SimdBase<Simd<E, W>, Simd<E, W / 2>, E, W> {
   static_assert(std::same_as<E, float> || number::Integer<E>);
@@ -282,39 +351,45 @@ struct Simd : SimdBase<Simd<E, W>, Simd<E, W / 2>, E, W> {
   }
 
   friend TWINSHADE_INLINE mask operator<(Simd a, Simd b) {
-    return Base::template each<mask>([](auto x, auto y) TWINSHADE_LAMBDA { return x < y; }, a, b);
+    return compare([](auto x, auto y) TWINSHADE_LAMBDA { return registers::less(x, y); }, a, b);
   }
   friend TWINSHADE_INLINE mask operator>(Simd a, Simd b) {
-    return Base::template each<mask>([](auto x, auto y) TWINSHADE_LAMBDA { return x > y; }, a, b);
+    return compare([](auto x, auto y) TWINSHADE_LAMBDA { return registers::greater(x, y); }, a, b);
   }
   friend TWINSHADE_INLINE mask operator<=(Simd a, Simd b) {
-    return Base::template each<mask>([](auto x, auto y) TWINSHADE_LAMBDA { return x <= y; }, a, b);
+    return compare([](auto x, auto y) TWINSHADE_LAMBDA { return registers::less_equal(x, y); }, a, b);
   }
   friend TWINSHADE_INLINE mask operator>=(Simd a, Simd b) {
-    return Base::template each<mask>([](auto x, auto y) TWINSHADE_LAMBDA { return x >= y; }, a, b);
+    return compare([](auto x, auto y) TWINSHADE_LAMBDA { return registers::greater_equal(x, y); }, a, b);
   }
   friend TWINSHADE_INLINE mask operator==(Simd a, Simd b) {
-    return Base::template each<mask>([](auto x, auto y) TWINSHADE_LAMBDA { return x == y; }, a, b);
+    return compare([](auto x, auto y) TWINSHADE_LAMBDA { return registers::equal(x, y); }, a, b);
   }
   friend TWINSHADE_INLINE mask operator!=(Simd a, Simd b) {
-    return Base::template each<mask>([](auto x, auto y) TWINSHADE_LAMBDA { return x != y; }, a, b);
+    return compare([](auto x, auto y) TWINSHADE_LAMBDA { return registers::not_equal(x, y); }, a, b);
   }
 
   friend TWINSHADE_INLINE Simd select(mask m, Simd a, Simd b) {
-    return Base::template each<Simd>([](auto c, auto x, auto y) TWINSHADE_LAMBDA { return c ? x : y; }, m, a, b);
+    if constexpr (kMaskRegister<W>) {
+      Simd r;
+      r.v = registers::blend(m.m, a.v, b.v);
+      return r;
+    } else {
+      return Base::template each<Simd>([](auto c, auto x, auto y) TWINSHADE_LAMBDA { return c ? x : y; }, m, a, b);
+    }
   }
   // The other operand where one is NaN; of +0 and -0 the second.
   friend TWINSHADE_INLINE Simd lanes_min(Simd a, Simd b) {
     if constexpr (real)
       return select((a < b) | (b != b), a, b);
     else
-      return select(a < b, a, b);
+      return Base::template each<Simd>([](auto x, auto y) TWINSHADE_LAMBDA { return registers::lesser(x, y); }, a, b);
   }
   friend TWINSHADE_INLINE Simd lanes_max(Simd a, Simd b) {
     if constexpr (real)
       return select((a > b) | (b != b), a, b);
     else
-      return select(a > b, a, b);
+      return Base::template each<Simd>([](auto x, auto y) TWINSHADE_LAMBDA { return registers::larger(x, y); }, a, b);
   }
   friend TWINSHADE_INLINE Simd lanes_abs(Simd a) {
     if constexpr (real)
@@ -360,6 +435,13 @@ struct Simd : SimdBase<Simd<E, W>, Simd<E, W / 2>, E, W> {
   template <class E2, int W2>
   friend struct Simd;
 
+  template <class Op>
+  static TWINSHADE_INLINE mask compare(Op op, Simd a, Simd b) {
+    if constexpr (kMaskRegister<W>)
+      return mask(op(a.v, b.v));
+    else
+      return Base::template each<mask>(op, a, b);
+  }
   // Integers are worked on as unsigned, so that they wrap.
   template <class Op, class... A>
   static TWINSHADE_INLINE Simd wrapping(Op op, const A&... a) {

@@ -105,6 +105,47 @@ TWINSHADE_INLINE Int4 to_int(Float4 x) {
 #endif
 }
 
+// --- comparisons: lanes 0 or -1
+
+template <class V>
+TWINSHADE_INLINE auto less(V x, V y) {
+  return x < y;
+}
+template <class V>
+TWINSHADE_INLINE auto greater(V x, V y) {
+  return x > y;
+}
+template <class V>
+TWINSHADE_INLINE auto less_equal(V x, V y) {
+  return x <= y;
+}
+template <class V>
+TWINSHADE_INLINE auto greater_equal(V x, V y) {
+  return x >= y;
+}
+template <class V>
+TWINSHADE_INLINE auto equal(V x, V y) {
+  return x == y;
+}
+template <class V>
+TWINSHADE_INLINE auto not_equal(V x, V y) {
+  return x != y;
+}
+// x where the lane is -1, else y.
+template <class M, class V>
+TWINSHADE_INLINE V blend(M lanes, V x, V y) {
+  return lanes ? x : y;
+}
+// Of integers.
+template <class V>
+TWINSHADE_INLINE V lesser(V x, V y) {
+  return x < y ? x : y;
+}
+template <class V>
+TWINSHADE_INLINE V larger(V x, V y) {
+  return x > y ? x : y;
+}
+
 // --- masks (lanes 0 or -1)
 
 TWINSHADE_INLINE bool any(Int4 m) {
@@ -170,9 +211,32 @@ TWINSHADE_INLINE Float16 round_even(Float16 x) {
 TWINSHADE_INLINE Int16 to_int(Float16 x) {
   return ((Int16)_mm512_maskz_cvttps_epi32(0xffff, (__m512)x) ^ (x >= splat<float, 16>(2147483648.0f))) & (x == x);
 }
-TWINSHADE_INLINE std::uint32_t mask_bits(Int16 m) { return _mm512_movepi32_mask((__m512i)m); }
-TWINSHADE_INLINE bool any(Int16 m) { return mask_bits(m) != 0; }
-TWINSHADE_INLINE bool all(Int16 m) { return mask_bits(m) == 0xffffu; }
+TWINSHADE_INLINE __mmask16 mask_of(Int16 lanes) { return _mm512_movepi32_mask((__m512i)lanes); }
+
+// Comparisons of sixteen lanes give a mask register: bit i is lane i.
+using UInt16 = Register<std::uint32_t, 16>;
+#define TWINSHADE_COMPARISON(name, of_floats, of_integers)             \
+  TWINSHADE_INLINE __mmask16 name(Float16 x, Float16 y) {              \
+    return _mm512_cmp_ps_mask((__m512)x, (__m512)y, of_floats);        \
+  }                                                                    \
+  TWINSHADE_INLINE __mmask16 name(Int16 x, Int16 y) {                  \
+    return _mm512_cmp_epi32_mask((__m512i)x, (__m512i)y, of_integers); \
+  }                                                                    \
+  TWINSHADE_INLINE __mmask16 name(UInt16 x, UInt16 y) {                \
+    return _mm512_cmp_epu32_mask((__m512i)x, (__m512i)y, of_integers); \
+  }
+TWINSHADE_COMPARISON(less, _CMP_LT_OQ, _MM_CMPINT_LT)
+TWINSHADE_COMPARISON(less_equal, _CMP_LE_OQ, _MM_CMPINT_LE)
+TWINSHADE_COMPARISON(equal, _CMP_EQ_OQ, _MM_CMPINT_EQ)
+TWINSHADE_COMPARISON(not_equal, _CMP_NEQ_UQ, _MM_CMPINT_NE)
+TWINSHADE_COMPARISON(greater, _CMP_GT_OQ, _MM_CMPINT_NLE)
+TWINSHADE_COMPARISON(greater_equal, _CMP_GE_OQ, _MM_CMPINT_NLT)
+#undef TWINSHADE_COMPARISON
+// x where the bit is set, else y.
+template <class V>
+requires(sizeof(V) == 64) TWINSHADE_INLINE V blend(__mmask16 m, V x, V y) {
+  return (V)_mm512_mask_blend_epi32(m, (__m512i)y, (__m512i)x);
+}
 #endif
 
 // --- memory by index: base[index] in each lane; indices are in range

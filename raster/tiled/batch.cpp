@@ -37,8 +37,9 @@ Batch::Batch(const Draw& draw)
   for (const Scalar scalar : draw.bound.input_scalars) scalars_.push_back(std::uint8_t(scalar));
 }
 
-void Batch::add(ShadeQuad quad, std::uint32_t coverage) {
+void Batch::add(ShadeQuad quad, std::uint32_t tile_quad, std::uint32_t coverage) {
   quads_[count_] = quad;
+  tile_quads_[count_] = tile_quad;
   coverage_[count_] = coverage;
   ++count_;
 }
@@ -100,66 +101,53 @@ float Batch::frag_depth(std::uint32_t quad, std::uint32_t pixel) const {
   return depth < 1 ? (depth > 0 ? depth : 0.0f) : 1.0f;  // NaN: 1, which no depth is greater than
 }
 
-namespace {
-
-using F4 = Simd<float, 4>;
-
-// Rows become columns.
-void transpose(F4 (&m)[4]) {
-  const auto a = __builtin_shufflevector(m[0].v, m[1].v, 0, 4, 1, 5),
-             b = __builtin_shufflevector(m[0].v, m[1].v, 2, 6, 3, 7);
-  const auto c = __builtin_shufflevector(m[2].v, m[3].v, 0, 4, 1, 5),
-             d = __builtin_shufflevector(m[2].v, m[3].v, 2, 6, 3, 7);
-  m[0].v = __builtin_shufflevector(a, c, 0, 1, 4, 5);
-  m[1].v = __builtin_shufflevector(a, c, 2, 3, 6, 7);
-  m[2].v = __builtin_shufflevector(b, d, 0, 1, 4, 5);
-  m[3].v = __builtin_shufflevector(b, d, 2, 3, 6, 7);
-}
-
-F4 load4(const float* from) { return F4::load(from); }
-F4 load4(const double* from) {
-  const float narrowed[4] = {float(from[0]), float(from[1]), float(from[2]), float(from[3])};
-  return F4::load(narrowed);
-}
-
-}  // namespace
-
-void Batch::store(std::uint32_t quad, std::uint32_t mask, float* color) const {
+void Batch::store(float* tile_color) const {
   const bool float64 = draw_.float64();
-  const double* doubles = outputs_.data();
-  const float* floats = reinterpret_cast<const float*>(doubles);
-  F4 pixels[4];
-  for (std::uint32_t c = 0; c < 4; ++c) {
-    const std::size_t at = std::size_t(draw_.bound.color_first + c) * kStride + 4 * quad;
-    if (c >= draw_.bound.color_components)
-      pixels[c] = F4(0.0f);
-    else
-      pixels[c] = float64 ? load4(doubles + at) : load4(floats + at);
+  if (float64) {
+    store_narrowed(tile_color);
+    store_extras(outputs_.data(), inputs_.data());
+    return;
   }
-  transpose(pixels);
-  for (std::uint32_t i = 0; i < 4; ++i)
-    if (mask >> i & 1) pixels[i].store(color + 4 * i);
+  const float* outputs = reinterpret_cast<const float*>(outputs_.data());
+  StoreQuads call{};
+  for (std::uint32_t c = 0; c < draw_.bound.color_components; ++c)
+    call.channels[c] = outputs + std::size_t(draw_.bound.color_first + c) * kStride;
+  call.tile_quads = tile_quads_;
+  call.coverage = coverage_;
+  call.count = count_;
+  call.color = tile_color;
+  draw_.kernels.store_quads(call);
+  if (draw_.options.capture_attributes) store_extras(outputs, reinterpret_cast<const float*>(inputs_.data()));
+}
 
-  if (float64)
-    store_extras(doubles, inputs_.data(), quad, mask);
-  else if (draw_.options.capture_attributes)
-    store_extras(floats, reinterpret_cast<const float*>(inputs_.data()), quad, mask);
+// Colours in double, rounded.
+void Batch::store_narrowed(float* tile_color) const {
+  for (std::uint32_t q = 0; q < count_; ++q)
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      if (!(coverage_[q] >> i & 1)) continue;
+      float* pixel = tile_color + (4 * std::size_t(tile_quads_[q]) + i) * 4;
+      for (std::uint32_t c = 0; c < 4; ++c)
+        pixel[c] = c < draw_.bound.color_components
+                       ? float(outputs_[std::size_t(draw_.bound.color_first + c) * kStride + 4 * q + i])
+                       : 0.0f;
+    }
 }
 
 template <class R>
-void Batch::store_extras(const R* outputs, const R* inputs, std::uint32_t quad, std::uint32_t mask) const {
+void Batch::store_extras(const R* outputs, const R* inputs) const {
   Frame& frame = draw_.frame;
   const std::size_t pixels = std::size_t(frame.width) * frame.height;
-  for (std::uint32_t i = 0; i < 4; ++i) {
-    if (!(mask >> i & 1)) continue;
+  for (std::uint32_t k = 0; k < 4 * count_; ++k) {
+    const std::uint32_t quad = k / 4, i = k % 4;
+    if (!(coverage_[quad] >> i & 1)) continue;
     const std::size_t pixel =
         (quads_[quad].y + std::size_t(i >> 1)) * frame.width + quads_[quad].x + std::size_t(i & 1);
     if constexpr (sizeof(R) == sizeof(double))
       for (std::uint32_t c = 0; c < draw_.bound.color_components; ++c)
-        frame.color64[4 * pixel + c] = outputs[std::size_t(draw_.bound.color_first + c) * kStride + 4 * quad + i];
+        frame.color64[4 * pixel + c] = outputs[std::size_t(draw_.bound.color_first + c) * kStride + k];
     if (!draw_.options.capture_attributes) continue;
     for (std::uint32_t c = 0; c < draw_.bound.input_components; ++c) {
-      const R value = inputs[std::size_t(c) * kStride + 4 * quad + i];
+      const R value = inputs[std::size_t(c) * kStride + k];
       float stored = float(value);
       if constexpr (sizeof(R) == sizeof(double)) {  // integers came as values, and leave by bit pattern
         if (draw_.bound.input_scalars[c] == Scalar::i32)

@@ -39,8 +39,8 @@ class Batch {
 
   std::uint32_t count() const { return count_; }
   bool full() const { return count_ == kBatchQuads; }
-  // coverage: bit i for pixel i of the quad.
-  void add(ShadeQuad quad, std::uint32_t coverage);
+  // tile_quad: index in the tile's memory / 4; coverage: bit i for pixel i of the quad.
+  void add(ShadeQuad quad, std::uint32_t tile_quad, std::uint32_t coverage);
 
   // Fills inputs, runs the shader, stores nothing yet. Pads with dead quads to whole vectors first.
   void shade(const LocalPrimitive* primitives, StageClock& clock);
@@ -51,20 +51,23 @@ class Batch {
   // Pixels that the shader kept, of those covered.
   std::uint32_t kept(std::uint32_t quad) const;
   float frag_depth(std::uint32_t quad, std::uint32_t pixel) const;
-  // Colours of the pixels in `mask` to four RGBA pixels; attributes and unrounded colours, where asked for, to the
+  // Fewer pixels than were covered are to be stored.
+  void reduce_coverage(std::uint32_t quad, std::uint32_t coverage) { coverage_[quad] = coverage; }
+  // Colours of covered pixels to the tile's RGBA pixels; attributes and unrounded colours, where asked for, to the
   // frame.
-  void store(std::uint32_t quad, std::uint32_t mask, float* color) const;
+  void store(float* tile_color) const;
 
  private:
+  void store_narrowed(float* tile_color) const;
   template <class R>
-  void store_extras(const R* outputs, const R* inputs, std::uint32_t quad, std::uint32_t mask) const;
+  void store_extras(const R* outputs, const R* inputs) const;
 
   static constexpr std::uint32_t kStride = 4 * kBatchQuads + 16;
 
   const Draw& draw_;
   std::uint32_t count_ = 0;
   ShadeQuad quads_[kBatchQuads];
-  std::uint32_t coverage_[kBatchQuads];
+  std::uint32_t tile_quads_[kBatchQuads], coverage_[kBatchQuads];
   std::vector<std::uint8_t> interpolation_, scalars_;
   // Doubles for all numbers: floats use the first half.
   AlignedArray<double> center_x_, center_y_, inputs_, frag_coord_, outputs_, frag_depth_;
@@ -91,6 +94,7 @@ class TileWorker {
   void collect_visible_quads();
   void shade_in_order();  // in_order_pass.cpp
   void resolve_in_order();
+  void name_primitives();
   void store_tile();  // store_tile.cpp
   void store_superblock(std::uint32_t first, std::uint32_t x, std::uint32_t y);
   void store_superblock_by_pixels(std::uint32_t first, std::uint32_t x, std::uint32_t y);
@@ -108,7 +112,9 @@ class TileWorker {
   CoverTile tile_{};
   AlignedArray<float> depth_;
   AlignedArray<std::uint32_t> visible_;
-  AlignedArray<float> color_;  // RGBA of the tile's pixels in memory order; stale where nothing is visible
+  // Of the tile's pixels in memory order, when shading is done; clear where nothing is visible.
+  AlignedArray<float> color_;  // RGBA
+  AlignedArray<std::uint32_t> primitive_id_;
   struct QuadOffset {
     std::uint8_t x, y;
   };

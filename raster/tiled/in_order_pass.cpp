@@ -1,6 +1,8 @@
 // Shaders that discard, write gl_FragDepth or have side effects: each covered quad is shaded, in primitive order,
 // before the depth test decides. Batches hold quads of several triangles; the depth test then goes through them in
 // order.
+#include <algorithm>
+
 #include "cpu_shaders/runtime/denormals.h"
 #include "raster/tiled/draw.h"
 
@@ -9,6 +11,7 @@ namespace twinshade::tiled {
 void TileWorker::shade_in_order() {
   // A fragment that is hidden now stays hidden, since depth only decreases: it need not run, if nobody can tell.
   const bool early_depth_test = !draw_.module.writes_depth && !draw_.module.has_side_effects;
+  std::fill_n(color_.data(), 4 * std::size_t(tile_.size) * tile_.size, 0.0f);
   batch_quads_.resize(kBatchQuads);
   covered_.resize(std::size_t(tile_.size) * tile_.size / 4);
   for (std::uint32_t which = 0; which < tile_.count; ++which) {
@@ -20,7 +23,7 @@ void TileWorker::shade_in_order() {
     for (std::uint32_t i = 0; i < count; ++i) {
       const CoveredQuad& quad = covered_[i];
       batch_quads_[batch_.count()] = quad;
-      batch_.add(place(quad.quad, tile_.locals[which]), quad.coverage);
+      batch_.add(place(quad.quad, tile_.locals[which]), quad.quad, quad.coverage);
       if (!batch_.full()) continue;
       clock_.lap(Stage::raster);
       resolve_in_order();
@@ -28,6 +31,7 @@ void TileWorker::shade_in_order() {
   }
   clock_.lap(Stage::raster);
   if (batch_.count() > 0) resolve_in_order();
+  name_primitives();
 }
 
 void TileWorker::resolve_in_order() {
@@ -45,10 +49,16 @@ void TileWorker::resolve_in_order() {
       tile_.visible[pixel] = batch_.local(q);
       nearer |= 1u << i;
     }
-    if (nearer) batch_.store(q, nearer, &color_[std::size_t(quad.quad) * 16]);
+    batch_.reduce_coverage(q, nearer);
   }
+  batch_.store(color_.data());
   batch_.clear();
   clock_.lap(Stage::store);
+}
+
+void TileWorker::name_primitives() {
+  for (std::uint32_t i = 0; i < tile_.size * tile_.size; ++i)
+    primitive_id_[i] = tile_.visible[i] == kNotVisible ? kNoPrimitive : primitives_[tile_.visible[i]].primitive;
 }
 
 }  // namespace twinshade::tiled

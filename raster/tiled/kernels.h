@@ -75,6 +75,15 @@ struct InterpolateQuads {
   std::uint32_t* front_facing;  // or null
 };
 
+// Colours of `count` quads, which are in structures of arrays, to a tile's memory.
+struct StoreQuads {
+  const float* channels[4];         // 4 * count floats each, with room for 16 more; null: 0
+  const std::uint32_t* tile_quads;  // of each quad, index in the tile's memory / 4
+  const std::uint32_t* coverage;    // bit i: pixel i of the quad is stored
+  std::uint32_t count;
+  float* color;  // of the tile: RGBA of each pixel
+};
+
 struct Kernels {
   Isa isa;
   Number number;
@@ -84,6 +93,7 @@ struct Kernels {
   // it wrote.
   std::uint32_t (*cover_one)(const CoverTile&, std::uint32_t which, bool early_depth_test, CoveredQuad* out);
   void (*interpolate)(const InterpolateQuads&);
+  void (*store_quads)(const StoreQuads&);
 };
 
 // Coverage and depth are those of float whatever the number; float64 differs in `interpolate` only.

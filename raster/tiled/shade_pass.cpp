@@ -8,7 +8,8 @@
 
 namespace twinshade::tiled {
 
-// Quads of one primitive side by side, so that interpolation broadcasts its vertex data: a counting sort.
+// Quads of one primitive side by side, so that interpolation broadcasts its vertex data: a counting sort. Primitive
+// ids are known here, and which quads will not be filled with colour.
 void TileWorker::collect_visible_quads() {
   using U4 = Simd<std::uint32_t, 4>;
   place_of_local_.assign(primitives_.size() + 1, 0);
@@ -19,13 +20,18 @@ void TileWorker::collect_visible_quads() {
     const std::uint32_t* pixels = tile_.visible + 4 * quad;
     const U4 visible = U4::load(pixels);
     std::uint32_t left = (visible != U4(kNotVisible)).bits();
+    if (left != 15) std::fill_n(&color_[16 * std::size_t(quad)], 16, 0.0f);
+    U4 id(kNoPrimitive);
     while (left != 0) {
       const std::uint32_t local = pixels[__builtin_ctz(left)];
-      const std::uint32_t coverage = (visible == U4(local)).bits();
+      const auto here = visible == U4(local);
+      const std::uint32_t coverage = here.bits();
       left &= ~coverage;
+      id = select(here, U4(primitives_[local].primitive), id);
       found_[count++] = {local, std::uint16_t(quad), std::uint16_t(coverage)};
       ++place_of_local_[local + 1];
     }
+    id.store(&primitive_id_[4 * quad]);
   }
   for (std::size_t i = 1; i < place_of_local_.size(); ++i) place_of_local_[i] += place_of_local_[i - 1];
   sorted_.resize(count);
@@ -42,10 +48,10 @@ void TileWorker::shade_visible() {
 
   for (std::size_t begin = 0; begin < sorted_.size(); begin += kBatchQuads) {
     const std::size_t end = std::min(sorted_.size(), begin + kBatchQuads);
-    for (std::size_t i = begin; i < end; ++i) batch_.add(place(sorted_[i].quad, sorted_[i].local), sorted_[i].coverage);
-    batch_.shade(primitives_.data(), clock_);
     for (std::size_t i = begin; i < end; ++i)
-      batch_.store(std::uint32_t(i - begin), sorted_[i].coverage, &color_[std::size_t(sorted_[i].quad) * 16]);
+      batch_.add(place(sorted_[i].quad, sorted_[i].local), sorted_[i].quad, sorted_[i].coverage);
+    batch_.shade(primitives_.data(), clock_);
+    batch_.store(color_.data());
     batch_.clear();
     clock_.lap(Stage::store);
   }

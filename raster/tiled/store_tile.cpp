@@ -33,6 +33,22 @@ constexpr std::uint32_t in_superblock(std::uint32_t x, std::uint32_t y) {
   return (y / 4 * 4 + x / 4) * 16 + (y % 4 / 2 * 2 + x % 4 / 2) * 4 + y % 2 * 2 + x % 2;
 }
 
+// Two quads side by side become their lower and upper row of four.
+template <class V>
+struct Rows {
+  V low, high;
+  explicit Rows(const typename V::element* quads) {
+    const V left = V::load(quads), right = V::load(quads + 4);
+    low.v = __builtin_shufflevector(left.v, right.v, 0, 1, 4, 5);
+    high.v = __builtin_shufflevector(left.v, right.v, 2, 3, 6, 7);
+  }
+};
+
+// [m]: byte i is 1 where bit i of m is set.
+constexpr std::uint32_t kCoverageBytes[16] = {0x00000000, 0x00000001, 0x00000100, 0x00000101, 0x00010000, 0x00010001,
+                                              0x00010100, 0x00010101, 0x01000000, 0x01000001, 0x01000100, 0x01000101,
+                                              0x01010000, 0x01010001, 0x01010100, 0x01010101};
+
 }  // namespace
 
 void TileWorker::store_tile() {
@@ -52,30 +68,31 @@ void TileWorker::store_tile() {
 
 void TileWorker::store_superblock(std::uint32_t first, std::uint32_t x, std::uint32_t y) {
   Frame& frame = draw_.frame;
-  const F4 clear(0.0f);
-  for (std::uint32_t row = 0; row < kSuperblock; ++row) {
-    const std::size_t pixel = std::size_t(y + row) * frame.width + x;
+  const std::size_t width = frame.width;
+  for (std::uint32_t row = 0; row < kSuperblock; row += 2)
     for (std::uint32_t column = 0; column < kSuperblock; column += 4) {
-      // Four pixels: the rows of two quads.
-      const std::uint32_t left = first + in_superblock(column, row), right = left + 4;
-      float depth[4];
-      std::uint32_t id[4];
-      std::memcpy(depth, &tile_.depth[left], 8);
-      std::memcpy(depth + 2, &tile_.depth[right], 8);
-      std::uint8_t* coverage = &frame.coverage[pixel + column];
-      float* color = &frame.color[4 * (pixel + column)];
-      for (std::uint32_t i = 0; i < 4; ++i) {
-        const std::uint32_t from = (i < 2 ? left : right) + i % 2;
-        const std::uint32_t local = tile_.visible[from];
-        const bool drawn = local != kNotVisible;
-        coverage[i] = drawn;
-        id[i] = drawn ? primitives_[local].primitive : kNoPrimitive;
-        stream(color + 4 * i, drawn ? F4::load(&color_[4 * std::size_t(from)]) : clear);
+      const std::size_t pixel = (y + row) * width + x + column;  // the lower left one of 4 x 2
+      const std::size_t from = first + in_superblock(column, row);
+      const float* left = &color_[4 * from];
+      const float* right = left + 16;
+      for (std::size_t up = 0; up < 2; ++up) {
+        float* color = &frame.color[4 * (pixel + up * width)];
+        stream(color, F4::load(left + 8 * up));
+        stream(color + 4, F4::load(left + 8 * up + 4));
+        stream(color + 8, F4::load(right + 8 * up));
+        stream(color + 12, F4::load(right + 8 * up + 4));
       }
-      stream(&frame.depth[pixel + column], F4::load(depth));
-      stream(&frame.primitive_id[pixel + column], U4::load(id));
+      const Rows<F4> depth(&tile_.depth[from]);
+      stream(&frame.depth[pixel], depth.low);
+      stream(&frame.depth[pixel + width], depth.high);
+      const Rows<U4> id(&primitive_id_[from]);
+      stream(&frame.primitive_id[pixel], id.low);
+      stream(&frame.primitive_id[pixel + width], id.high);
+      const std::uint32_t bytes[2] = {kCoverageBytes[(id.low != U4(kNoPrimitive)).bits()],
+                                      kCoverageBytes[(id.high != U4(kNoPrimitive)).bits()]};
+      std::memcpy(&frame.coverage[pixel], &bytes[0], 4);
+      std::memcpy(&frame.coverage[pixel + width], &bytes[1], 4);
     }
-  }
 }
 
 // At the frame's border, and for colours in double.
@@ -84,12 +101,11 @@ void TileWorker::store_superblock_by_pixels(std::uint32_t first, std::uint32_t x
   for (std::uint32_t y = y0; y < std::min(y0 + kSuperblock, frame.height); ++y)
     for (std::uint32_t x = x0; x < std::min(x0 + kSuperblock, frame.width); ++x) {
       const std::size_t from = first + in_superblock(x - x0, y - y0), pixel = std::size_t(y) * frame.width + x;
-      const std::uint32_t local = tile_.visible[from];
-      const bool drawn = local != kNotVisible;
+      const bool drawn = primitive_id_[from] != kNoPrimitive;
       frame.depth[pixel] = tile_.depth[from];
       frame.coverage[pixel] = drawn;
-      frame.primitive_id[pixel] = drawn ? primitives_[local].primitive : kNoPrimitive;
-      (drawn ? F4::load(&color_[4 * from]) : F4(0.0f)).store(&frame.color[4 * pixel]);
+      frame.primitive_id[pixel] = primitive_id_[from];
+      F4::load(&color_[4 * from]).store(&frame.color[4 * pixel]);
       if (!drawn && draw_.float64()) std::fill_n(&frame.color64[4 * pixel], 4, 0.0);
     }
 }

@@ -9,7 +9,8 @@ TileWorker::TileWorker(const Draw& draw)
       batch_(draw),
       depth_(std::size_t(draw.grid.tile_size) * draw.grid.tile_size),
       visible_(std::size_t(draw.grid.tile_size) * draw.grid.tile_size),
-      color_(std::size_t(draw.grid.tile_size) * draw.grid.tile_size * 4) {
+      color_(std::size_t(draw.grid.tile_size) * draw.grid.tile_size * 4),
+      primitive_id_(std::size_t(draw.grid.tile_size) * draw.grid.tile_size) {
   tile_.vertices = &draw.vertices;
   tile_.size = draw.grid.tile_size;
   tile_.frame_width = draw.grid.frame_width;
@@ -38,6 +39,9 @@ void TileWorker::draw_tile(std::uint32_t tile) {
     else
       shade_visible();
     ++tiles_shaded_;
+  } else {
+    std::fill_n(color_.data(), 4 * pixels, 0.0f);
+    std::fill_n(primitive_id_.data(), pixels, kNoPrimitive);
   }
   store_tile();
   clock_.lap(Stage::store);

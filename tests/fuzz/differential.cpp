@@ -91,7 +91,7 @@ std::string first_difference(const EvaluatedRows& computed, const EvaluatedRows&
 }
 
 Tally compare_programs(std::uint64_t first, std::uint64_t count, const std::vector<EvaluationTarget>& targets,
-                       std::size_t batch, const std::function<void(std::uint64_t done)>& progress) {
+                       std::size_t batch, const std::function<void(const Tally&)>& progress) {
   Tally tally;
   Evaluator evaluator;
   for (std::uint64_t from = first; from < first + count; from += batch) {
@@ -120,7 +120,7 @@ Tally compare_programs(std::uint64_t first, std::uint64_t count, const std::vect
       }
     }
     evaluator.forget();
-    if (progress) progress(until - first);
+    if (progress) progress(tally);
   }
   return tally;
 }

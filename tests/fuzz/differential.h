@@ -31,8 +31,9 @@ struct Tally {
   std::vector<std::string> driver_differs;  // the interpreter and every CPU agree against the driver
 };
 
-// Programs first to first + count - 1 on each target, `batch` of them prepared at a time.
+// Programs first to first + count - 1 on each target, `batch` of them prepared at a time; `progress` gets the tally so
+// far after each batch.
 Tally compare_programs(std::uint64_t first, std::uint64_t count, const std::vector<EvaluationTarget>& targets,
-                       std::size_t batch, const std::function<void(std::uint64_t done)>& progress = {});
+                       std::size_t batch, const std::function<void(const Tally&)>& progress = {});
 
 }  // namespace twinshade::fuzz

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/error.h"
@@ -149,6 +150,14 @@ class Display {
   double exposure_ = 0;
 };
 
+// A row's last columns. The peak of psnr is what shows as white: the mean is at kMiddleGrey of it.
+std::array<Cell, 3> error_cells(double error, double mean) {
+  constexpr double kDecibels = 6.0205999132796239;  // 20 log10(2)
+  const double relative = mean > 0 ? error / mean : std::nan("");
+  const double psnr = relative > 0 ? -kDecibels * portable::log2(kMiddleGrey * relative) : std::nan("");
+  return {error, number_cell(relative), number_cell(psnr)};
+}
+
 // One picture: a frame that counts as exact, others, and their differences below.
 class Comparison4x {
  public:
@@ -164,12 +173,12 @@ class Comparison4x {
 
   void add(const std::string& technique, const Frame& frame) {
     const double error = rmse(frame, exact_), mean = mean_radiance(exact_);
-    const double relative = mean > 0 ? error / mean : std::nan("");
+    const auto [absolute, relative, psnr] = error_cells(error, mean);
     result_.rows.add(
-        {figure_, shot_.environment(), std::int64_t(order_), technique, against_, error, number_cell(relative)});
+        {figure_, shot_.environment(), std::int64_t(order_), technique, against_, absolute, relative, psnr});
     frames_.tiles.push_back({display_.image(frame), technique});
     differences_.tiles.push_back(
-        {display_.difference(frame, exact_), fmt::format("RMSE {:.2f}% of the mean", relative * 100)});
+        {display_.difference(frame, exact_), fmt::format("RMSE {:.2f}% of the mean", error / mean * 100)});
   }
 
   // The frames, then four times their differences.
@@ -237,8 +246,9 @@ void normal_map_figure(ExperimentResult& result, const ExperimentOptions& option
     rows[0].tiles.push_back({display.image(off[i]), name});
     rows[1].tiles.push_back({display.image(on[i]), name});
     const double change = rmse(off[i], on[i]), mean = mean_radiance(on[i]);
+    const auto [absolute, relative, psnr] = error_cells(change, mean);
     result.rows.add({std::string("normal-map"), shot.environment(), std::int64_t(kHighestOrder), name,
-                     std::string("normal map off"), change, number_cell(mean > 0 ? change / mean : std::nan(""))});
+                     std::string("normal map off"), absolute, relative, psnr});
   }
   add_picture(result, options, "normal-map", "What normal maps add",
               "shlmap has bounced light as well; the others direct light alone", rows);
@@ -285,14 +295,17 @@ ExperimentResult run_visibility_figures(const ExperimentOptions& options) {
   std::vector<Shot> shots;
   for (const Probe& probe : probes) shots.emplace_back(scene, visibility, probe, options);
 
-  ExperimentResult result{Rows({"figure", "environment", "order", "technique", "against", "rmse", "relative"}), {}, {}};
+  ExperimentResult result{
+      Rows({"figure", "environment", "order", "technique", "against", "rmse", "relative", "psnr"}), {}, {}};
   components_figure(result, options, shots.front());
   orders_figure(result, options, shots.front());
   normal_map_figure(result, options, shots.front());
   environments_figure(result, options, shots);
   note_enough_components(result);
   result.notes.push_back(
-      "rmse: of radiance, over covered pixels and channels; relative: over the mean radiance of what it is held to");
+      "rmse: of radiance, over covered pixels and channels; relative: over the mean radiance of what it is held to; "
+      "psnr: "
+      "decibels, as the pictures are exposed, with the mean at 0.4 of the peak");
   return result;
 }
 

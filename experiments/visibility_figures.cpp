@@ -150,6 +150,10 @@ class Display {
   double exposure_ = 0;
 };
 
+std::string percent_of_mean(double relative) {
+  return std::isnan(relative) ? "0" : fmt::format("{:.2f}% of the mean", relative * 100);
+}
+
 // A row's last columns. The peak of psnr is what shows as white: the mean is at kMiddleGrey of it.
 std::array<Cell, 3> error_cells(double error, double mean) {
   constexpr double kDecibels = 6.0205999132796239;  // 20 log10(2)
@@ -177,8 +181,7 @@ class Comparison4x {
     result_.rows.add(
         {figure_, shot_.environment(), std::int64_t(order_), technique, against_, absolute, relative, psnr});
     frames_.tiles.push_back({display_.image(frame), technique});
-    differences_.tiles.push_back(
-        {display_.difference(frame, exact_), fmt::format("RMSE {:.2f}% of the mean", error / mean * 100)});
+    differences_.tiles.push_back({display_.difference(frame, exact_), "RMSE " + percent_of_mean(error / mean)});
   }
 
   // The frames, then four times their differences.
@@ -273,9 +276,8 @@ void note_enough_components(ExperimentResult& result) {
     for (std::size_t r = 0; r < result.rows.size(); ++r)
       if (std::get<std::string>(result.rows.at(r, "figure")) == "components" &&
           result.rows.number(r, "order") == order && std::get<std::string>(result.rows.at(r, "technique")) == technique)
-        result.notes.push_back(
-            fmt::format("order {}: {} is {:.2f}% of the mean radiance off all coefficients (NMV: enough)", order,
-                        technique, result.rows.number(r, "relative") * 100));
+        result.notes.push_back(fmt::format("order {}: {} is {} off all coefficients (NMV: enough)", order, technique,
+                                           percent_of_mean(result.rows.number(r, "relative"))));
 }
 
 }  // namespace

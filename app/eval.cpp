@@ -79,7 +79,7 @@ struct EvalVerb {
     for (std::size_t i = 0; i < paths.size(); ++i) {
       cases[i].name = fs::path(paths[i].shader).stem().string();
       cases[i].file = paths[i].shader;
-      guarded(cases[i], many, [&] {
+      guarded(cases[i], many, output, [&] {
         sources[i] = load_shader(paths[i].shader);
         cases[i].cases = parse_cases(read_file(paths[i].cases), paths[i].cases);
       });
@@ -98,12 +98,14 @@ struct EvalVerb {
 
   // What is wrong with one of many shaders is its own result; with the only one it ends the run.
   template <class Action>
-  static void guarded(EvaluatedCase& c, bool many, Action action) {
+  void guarded(EvaluatedCase& c, bool many, const Output& output, Action action) const {
     try {
       action();
     } catch (const UserError& error) {
-      if (!many) throw;
       c.error = error.what();
+      if (many) return;
+      tell_services({c}, output);
+      throw;
     }
   }
 
@@ -120,7 +122,7 @@ struct EvalVerb {
     for (std::size_t i = 0; i < cases.size(); ++i) {
       if (!cases[i].error.empty()) continue;
       output.progress(fmt::format("running shaders: {} of {}", i + 1, cases.size()));
-      guarded(cases[i], many, [&] {
+      guarded(cases[i], many, output, [&] {
         for (const EvaluationTarget& target : targets) run_one(evaluator, sources[i], paths[i], target, cases[i]);
       });
       if (!cases[i].error.empty()) cases[i].backends.clear();
@@ -145,6 +147,11 @@ struct EvalVerb {
     c.backends.push_back(std::move(backend));
   }
 
+  void tell_services(const std::vector<EvaluatedCase>& cases, const Output& output) const {
+    if (!junit_file.empty()) write_file(junit_file, junit_xml("twinshade eval", eval_junit(cases)));
+    if (!annotate.empty()) output.text(github_annotations(eval_junit(cases)));
+  }
+
   int report(const std::vector<EvaluatedCase>& cases, bool many, const Output& output) const {
     output.text(eval_text(cases, many));
     Provenance provenance(common);
@@ -152,8 +159,7 @@ struct EvalVerb {
       for (const EvaluatedBackend& backend : c.backends)
         if (backend.error.empty()) provenance.add(backend.name, backend.rows.provenance);
     output.json({{"provenance", provenance.json()}, {"cases", eval_json(cases)}});
-    if (!junit_file.empty()) write_file(junit_file, junit_xml("twinshade eval", eval_junit(cases)));
-    if (!annotate.empty()) output.text(github_annotations(eval_junit(cases)));
+    tell_services(cases, output);
     const auto has_error = [](const EvaluatedCase& c) { return c.has_error(); };
     if (std::any_of(cases.begin(), cases.end(), has_error)) return 2;
     return std::all_of(cases.begin(), cases.end(), [](const EvaluatedCase& c) { return c.pass(); }) ? 0 : 1;

@@ -69,6 +69,18 @@ TEST_CASE("eval shows a failure with its inputs, in decimal and as hex floats") 
   CHECK(xml.find("name=\"a on cpu\"") != std::string::npos);
 }
 
+TEST_CASE("a shader that does not compile ends the run, and services are told where") {
+  const Folder folder;
+  const std::string junit = folder / "out.xml", json = folder.file("a.json", cases("[[1, 2], [4, 6]]"));
+  const std::string shader = folder.file("a.frag", "#version 450\nvoid main() { x = 1; }\n");
+  const Run run =
+      run_twinshade({"eval", shader, "--cases", json, "--on", "cpu", "--junit", junit, "--annotate", "github"});
+  CHECK(run.code == 2);
+  CHECK_MESSAGE(run.err.find("a.frag:2: ") != std::string::npos, run.err);
+  CHECK_MESSAGE(run.out.find("::error file=" + shader + ",line=2") == 0, run.out);
+  CHECK(read_file(junit).find("tests=\"1\" failures=\"0\" errors=\"1\"") != std::string::npos);
+}
+
 TEST_CASE("eval runs a folder: a shader that is wrong spoils no other") {
   const Folder folder;
   for (const char* name : {"b", "a", "c", "d"}) {

@@ -82,10 +82,10 @@ void FunctionEmitter::loop(const Statement& s) {
   init.swap(for_init_);
   position(s.file, s.line);
   const std::string where = module_.position(s.file, s.line).text();
+  std::string own;  // declared before the loop, so that its name is taken after it too
+  if (masked) own = new_mask();
   names_.open();
-  std::string own;
   if (masked) {
-    own = new_mask();
     out_.line("B " + own + " = " + mask_or_all() + ";");
     masks_.push_back({own, &s, false, 0});
   } else {

@@ -47,8 +47,10 @@ U reverse(U x) {
   return r;
 }
 
-float smaller(float a, float b) { return std::isnan(a) ? b : std::isnan(b) ? a : b < a ? b : a; }
-float larger(float a, float b) { return std::isnan(a) ? b : std::isnan(b) ? a : a < b ? b : a; }
+// Of 0 and -0 the second, as every machine of ours and llvmpipe have it (docs/exact-dialect.md). GLSL's text gives the
+// first.
+float smaller(float a, float b) { return std::isnan(a) ? b : std::isnan(b) ? a : a < b ? a : b; }
+float larger(float a, float b) { return std::isnan(a) ? b : std::isnan(b) ? a : a > b ? a : b; }
 
 bool ordered(float a, float b) { return !std::isnan(a) && !std::isnan(b); }
 

@@ -82,6 +82,13 @@ struct table<T, n> {
   TWINSHADE_INLINE constexpr T operator[](Plain<I, 1> i) const {
     return T(column[number::clamp_index(i.e[0], n)]);
   }
+  // The whole array, uniform or varying.
+  template <class G>
+  requires std::convertible_to<T, G> TWINSHADE_INLINE constexpr operator arr<G, n>() const {
+    arr<G, n> r{};
+    for (int i = 0; i < n; ++i) r.e[i] = (*this)[i];
+    return r;
+  }
 };
 template <detail::UniformNumber T, int n, Lane Index>
 TWINSHADE_INLINE constexpr auto lookup(const table<T, n>& t, const Index& index) {
@@ -102,6 +109,13 @@ requires detail::UniformVec<T>::value struct table<T, n> {
   template <number::Integer I>
   TWINSHADE_INLINE constexpr T operator[](Plain<I, 1> i) const {
     return entry(number::clamp_index(i.e[0], n), detail::Indices<T::size>());
+  }
+  // The whole array, uniform or varying.
+  template <class G>
+  requires std::convertible_to<T, G> TWINSHADE_INLINE constexpr operator arr<G, n>() const {
+    arr<G, n> r{};
+    for (int i = 0; i < n; ++i) r.e[i] = (*this)[i];
+    return r;
   }
   template <Lane I, int... k>
   TWINSHADE_INLINE constexpr auto entries(const I& index, std::integer_sequence<int, k...>) const {

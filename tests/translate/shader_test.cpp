@@ -21,6 +21,7 @@ SHADER(builtins)
 SHADER(functions)
 SHADER(globals)
 SHADER(language)
+SHADER(whole_arrays)
 #undef SHADER
 
 namespace {
@@ -303,6 +304,24 @@ TEST_CASE("built-in functions and bit casts; bit casts leave no float64 entry an
       check_value(answer, "matrices", 1, i, 0, number, 1e-4);
       check_value(answer, "matrices", 2, i, 3 * y, number, 1e-5);
       check_value(answer, "matrices", 3, i, 4 * x - y, number, 1e-5);
+    }
+  }
+}
+
+TEST_CASE("arrays that are looked up by lane are values too") {
+  Invocations in;
+  in.input = small_integers;
+  in.uniforms["pairs"] = {1, 2, 3, 4, 5, 6};
+  in.uniforms["codes"] = {7, 8, 9};
+  const int table[] = {3, -1, 4, 1, -5}, codes[] = {7, 8, 9};
+  for (Number number : kAll) {
+    const Answer answer = RUN(whole_arrays, number, in);
+    for (std::uint32_t i = 0; i < in.count; ++i) {
+      const int a = small_a(i), own[] = {a, 2, 2};
+      check_value(answer, "answer", 0, i, table[a % 5] + codes[a % 3] * 10 + (2 + a % 3 * 2) * 100, number);
+      check_value(answer, "answer", 1, i, (a > 2 ? codes : own)[a % 3] * 10 + 1, number);
+      check_value(answer, "answer", 2, i, a > 4 ? (1 + a) * 10 + 9 : 14, number);
+      check_value(answer, "answer", 3, i, a > 4 ? 5 : 45, number);
     }
   }
 }

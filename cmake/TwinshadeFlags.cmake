@@ -69,6 +69,14 @@ function(twinshade_library name)
   target_link_libraries(${name} PUBLIC twinshade_flags)
 endfunction()
 
+# For tests under sanitizers: what is known of libraries that are not ours.
+set(TWINSHADE_TEST_ENVIRONMENT "")
+if(TWINSHADE_SANITIZE MATCHES address)
+  set(TWINSHADE_TEST_ENVIRONMENT "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/cmake/leaks.supp:print_suppressions=0")
+elseif(TWINSHADE_SANITIZE MATCHES thread)
+  set(TWINSHADE_TEST_ENVIRONMENT "TSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/cmake/races.supp:print_suppressions=0")
+endif()
+
 # What `cmake --build` makes only when asked: `--target slow_tests`, `--target benches`.
 add_custom_target(slow_tests)
 add_custom_target(benches)
@@ -95,10 +103,7 @@ function(twinshade_test name)
   target_compile_definitions(${name} PRIVATE TWINSHADE_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES TIMEOUT 900)
-  if(TWINSHADE_SANITIZE MATCHES address)
-    set_tests_properties(${name} PROPERTIES ENVIRONMENT
-      "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/cmake/leaks.supp:print_suppressions=0")
-  endif()
+  set_tests_properties(${name} PROPERTIES ENVIRONMENT "${TWINSHADE_TEST_ENVIRONMENT}")
   if(T_LABELS)
     set_tests_properties(${name} PROPERTIES LABELS ${T_LABELS})
     if(slow IN_LIST T_LABELS)

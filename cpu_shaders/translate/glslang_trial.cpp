@@ -14,14 +14,7 @@
 #include <regex>
 
 #include "base/error.h"
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define TWINSHADE_SHADOW_MEMORY 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define TWINSHADE_SHADOW_MEMORY 1
-#endif
-#endif
+#include "base/shadow_memory.h"
 
 namespace twinshade {
 namespace {
@@ -42,12 +35,12 @@ void limit(__rlimit_resource resource, rlim_t value) {
   dup2(nowhere, 1), dup2(nowhere, 2);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, kMostSeconds);  // a child's clock starts at 0
-#ifndef TWINSHADE_SHADOW_MEMORY     // which takes terabytes of addresses
-  constexpr rlim_t kMostBytes = rlim_t{1} << 30;
-  rlim_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  limit(RLIMIT_AS, pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + kMostBytes);
-#endif
+  if constexpr (!kShadowMemory) {
+    constexpr rlim_t kMostBytes = rlim_t{1} << 30;
+    rlim_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    limit(RLIMIT_AS, pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + kMostBytes);
+  }
   // What was never written is no pointer to anything: reading it crashes here, not by luck somewhere else.
   mallopt(M_PERTURB, 0x5a);
   try {

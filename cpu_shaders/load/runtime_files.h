@@ -16,7 +16,7 @@ std::string unpack_runtime();
 
 // What is the same for all shaders that are compiled with the same flags, made once.
 struct PreparedRuntime {
-  std::string header;         // -include it: the compiler finds the precompiled form beside it
+  std::string header;         // -include it: clang++ finds the precompiled form beside it
   std::string portable_math;  // object file
 };
 // runtime: of unpack_runtime. flags: without -shared and without definitions that differ between shaders. UserError

@@ -80,11 +80,18 @@ TEST_CASE(
     "a prepared runtime that is damaged, or that its compiler refuses, does not stop a shader and is made again") {
   const TestCache cache;
   compile("r = a.x;");
-  const std::string precompiled = files_named(cache.folder, ".gch").at(0).string();
   const std::string mathematics = files_named(cache.folder, "portable_math.o").at(0).string();
-  const std::uintmax_t precompiled_size = fs::file_size(precompiled), mathematics_size = fs::file_size(mathematics);
-  truncate_to_half(precompiled);
+  const std::uintmax_t mathematics_size = fs::file_size(mathematics);
   truncate_to_half(mathematics);
+  const auto headers = files_named(cache.folder, ".gch");
+  if (headers.empty()) {  // no clang++ here
+    CHECK(run(compile("r = exp(a.x);"), 0, 0, 0) == 1);
+    CHECK(fs::file_size(mathematics) == mathematics_size);
+    return;
+  }
+  const std::string precompiled = headers.at(0).string();
+  const std::uintmax_t precompiled_size = fs::file_size(precompiled);
+  truncate_to_half(precompiled);
   CHECK(run(compile("r = exp(a.x);"), 0, 0, 0) == 1);
   CHECK(fs::file_size(precompiled) == precompiled_size);
   CHECK(fs::file_size(mathematics) == mathematics_size);

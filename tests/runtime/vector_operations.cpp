@@ -5,11 +5,18 @@ namespace twinshade {
 inline namespace TWINSHADE_ISA_NAMESPACE {
 namespace {
 
+// A number that the compiler does not know: x * 1 is x to some, denormal or not, and a multiplication to others.
+TWINSHADE_INLINE float unknown(float x) {
+  __asm__ volatile("" : "+m"(x));
+  return x;
+}
+
 // Vectors and matrices made of a, b and c.
 template <class N>
 struct Made {
   using F = typename N::F;
   using UF = typename N::UF;
+  using real = typename N::real;
   vec<F, 2> v2, w2;
   vec<F, 3> v, w;
   vec<F, 4> v4, w4;
@@ -29,7 +36,7 @@ struct Made {
         m(v, w, vec<F, 3>(b, a, c)),
         m4(v4, w4, vec<F, 4>(b, a, c, a), vec<F, 4>(c, c, b, a)),
         m23(v, w),
-        u(UF(1.0f), UF(-2.0f), UF(0.5f)) {}
+        u(UF(real(unknown(1.0f))), UF(real(unknown(-2.0f))), UF(real(unknown(0.5f)))) {}
 };
 #define ON_VECTORS(name, ...) OPERATION(name, [[maybe_unused]] const Made<N> s(a, b, c); return __VA_ARGS__;)
 

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/sanitizers.h"
 
 namespace twinshade {
 namespace {
@@ -138,15 +139,17 @@ void occlude_triangle(const RTCOccludedFunctionNArguments* arguments) {
     reinterpret_cast<RTCRay*>(arguments->ray)->tfar = -std::numeric_limits<float>::infinity();
 }
 
-// No thread count in the configuration: Embree would impose it on every user of TBB in the process.
+// No thread count in the configuration: Embree would impose it on every user of TBB in the process. Under the thread
+// sanitizer nothing else uses TBB, and Embree builds on our thread alone: the sanitizer does not see how Embree's and
+// TBB's own threads, which are not compiled for it, wait for each other.
 RTCDevice new_device() {
-  std::string config, wanted;
+  std::string config = kThreadSanitizer ? "threads=1," : "", wanted;
   if (const char* isa = std::getenv("TWINSHADE_EMBREE_ISA")) wanted = isa;
   if (!wanted.empty()) {
     constexpr std::string_view known[] = {"sse2", "sse4.2", "avx", "avx2", "avx512"};
     if (std::find(std::begin(known), std::end(known), wanted) == std::end(known))
       throw UserError("TWINSHADE_EMBREE_ISA=" + wanted + " is none of sse2, sse4.2, avx, avx2, avx512");
-    config = "isa=" + wanted;
+    config += "isa=" + wanted;
   }
   const RTCDevice device = rtcNewDevice(config.c_str());
   if (!device)

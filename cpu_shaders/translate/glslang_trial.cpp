@@ -14,7 +14,7 @@
 #include <regex>
 
 #include "base/error.h"
-#include "base/shadow_memory.h"
+#include "base/sanitizers.h"
 
 namespace twinshade {
 namespace {

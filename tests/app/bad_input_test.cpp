@@ -11,7 +11,7 @@
 #include <fstream>
 #include <limits>
 
-#include "base/shadow_memory.h"
+#include "base/sanitizers.h"
 #include "run_twinshade.h"
 
 namespace twinshade {

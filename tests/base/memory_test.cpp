@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/shadow_memory.h"
+#include "base/sanitizers.h"
 
 using namespace twinshade;
 

@@ -317,7 +317,7 @@ Verb add_compare(CLI::App& app) {
   add_shading_options(*command, verb->shading, "all");
   command
       ->add_option("--on", verb->backends,
-                   "backends of cpu, egl, osmesa, softpipe; the first is the reference (default: cpu,egl,osmesa)")
+                   "backends of cpu, egl, osmesa, softpipe, gpu; the first is the reference (default: cpu,egl,osmesa)")
       ->delimiter(',')
       ->type_name("A,B,...");
   add_attribute_option(*command, verb->attributes);

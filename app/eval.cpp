@@ -176,7 +176,7 @@ Verb add_eval(CLI::App& app) {
       ->required();
   command->add_option("--cases", verb->cases_file, "inputs and expected outputs of the shader (docs/eval.md)")
       ->type_name("F.json");
-  command->add_option("--on", verb->backends, "backends of cpu, egl, osmesa, softpipe (default: cpu,egl)")
+  command->add_option("--on", verb->backends, "backends of cpu, egl, osmesa, softpipe, gpu (default: cpu,egl)")
       ->delimiter(',')
       ->type_name("A,B,...");
   command

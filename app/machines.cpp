@@ -25,7 +25,10 @@ GlEnvironment gl_environment(bool host_fma) {
 }
 
 std::unique_ptr<Renderer> make_gl(const std::string& backend, bool host_fma) {
-  return make_gl_renderer(backend == "egl" ? GlBackend::egl : GlBackend::osmesa, gl_environment(host_fma));
+  GlEnvironment environment = gl_environment(host_fma);
+  environment.written_out = backend == "gpu";
+  const GlBackend gl = backend == "gpu" ? GlBackend::gpu : backend == "egl" ? GlBackend::egl : GlBackend::osmesa;
+  return make_gl_renderer(gl, environment);
 }
 
 Frame shade_gl(const Bundle& bundle, const ShaderSource& source, const Frame& cpu_frame, bool host_fma,
@@ -44,7 +47,7 @@ Frame shade_gl(const Bundle&, const ShaderSource&, const Frame&, bool, double) {
 }  // namespace
 
 const std::vector<std::string>& backend_names() {
-  static const std::vector<std::string> names{"cpu", "egl", "osmesa", "softpipe"};
+  static const std::vector<std::string> names{"cpu", "egl", "osmesa", "softpipe", "gpu"};
   return names;
 }
 

@@ -11,7 +11,7 @@
 
 namespace twinshade {
 
-// "cpu", "egl", "osmesa", "softpipe": those that --on takes.
+// "cpu", "egl", "osmesa", "softpipe", "gpu": those that --on takes.
 const std::vector<std::string>& backend_names();
 // UserError with the nearest names where one is unknown or named twice.
 void require_backends(const std::vector<std::string>& names);

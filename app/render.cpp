@@ -117,7 +117,7 @@ Verb add_render(CLI::App& app) {
   add_subject_options(*command, verb->subject);
   add_shading_options(*command, verb->shading, "h4");
   add_reference_options(*command, verb->shading);
-  command->add_option("--on", verb->backend, "cpu, egl or osmesa (default: cpu)")->type_name("BACKEND");
+  command->add_option("--on", verb->backend, "cpu, egl, osmesa or gpu (default: cpu)")->type_name("BACKEND");
   add_attribute_option(*command, verb->attributes);
   command->add_option("-o,--output", verb->file, "picture to write, by ending: .exr, .hdr or .png")->type_name("F.exr");
   add_cpu_options(*command, verb->cpu);

@@ -15,7 +15,7 @@
 namespace twinshade {
 namespace {
 
-constexpr const char* kNames[] = {"cpu", "egl", "osmesa", "softpipe"};
+constexpr const char* kNames[] = {"cpu", "egl", "osmesa", "softpipe", "gpu"};
 constexpr const char* kIsaNames[] = {"baseline", "avx2", "avx512"};
 
 static_assert(kMostTableRows <= kMostGridRows);
@@ -60,8 +60,10 @@ struct Evaluator::State {
     if (!made) {
       const GlBackend gl = backend == Backend::egl      ? GlBackend::egl
                            : backend == Backend::osmesa ? GlBackend::osmesa
+                           : backend == Backend::gpu    ? GlBackend::gpu
                                                         : GlBackend::softpipe;
-      made = make_gl_row_renderer(gl, {thread_count(), options.host_fma, {}});
+      made = make_gl_row_renderer(
+          gl, {thread_count(), options.host_fma, options.written_out && backend == Backend::gpu, {}});
     }
     return *made;
   }

@@ -19,8 +19,8 @@ namespace twinshade {
 
 struct Reflection;
 
-enum class Backend : std::uint8_t { cpu, egl, osmesa, softpipe };
-inline constexpr Backend kBackends[] = {Backend::cpu, Backend::egl, Backend::osmesa, Backend::softpipe};
+enum class Backend : std::uint8_t { cpu, egl, osmesa, softpipe, gpu };
+inline constexpr Backend kBackends[] = {Backend::cpu, Backend::egl, Backend::osmesa, Backend::softpipe, Backend::gpu};
 const char* backend_name(Backend backend);
 
 // One machine to run on.
@@ -38,6 +38,7 @@ struct EvaluatorOptions {
   int optimisation = 1;            // of the C++ compiler, 0 to 3
   double time_limit_seconds = 60;  // of one run on OpenGL
   bool host_fma = true;            // false: llvmpipe without fused multiply-add
+  bool written_out = false;        // gpu: as GlEnvironment::written_out
 };
 
 // More outputs than OpenGL has colour attachments are refused on every backend.

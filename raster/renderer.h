@@ -68,7 +68,7 @@ class BackendError : public std::runtime_error {
 class Renderer {
  public:
   virtual ~Renderer() = default;
-  virtual std::string name() const = 0;  // "cpu", "egl", "osmesa", "softpipe"
+  virtual std::string name() const = 0;  // "cpu", "egl", "osmesa", "softpipe", "gpu"
   virtual Frame draw(const Bundle& bundle, const ShaderSource& source, const DrawOptions& options) = 0;
 };
 

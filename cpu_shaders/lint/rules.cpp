@@ -16,6 +16,8 @@ struct Place {
   bool precise = false;                    // its value goes into a `precise` variable
   bool compared = false;                   // it is an operand of a comparison
   const Expression* arithmetic = nullptr;  // the arithmetic it is an operand of
+  bool arm = false;                        // it is an arm of ?:, or within one
+  bool in_arm_arithmetic = false;          // within arithmetic that is within an arm
 };
 
 bool one_of(std::string_view name, std::initializer_list<std::string_view> names) {
@@ -208,6 +210,19 @@ std::string remainder(const Expression& e, const Place&) {
   return is_operator(e) && one_of(e.text, {"%", "%="}) && e.type.base == Base::int32 && !e.constant ? e.text : "";
 }
 
+bool has_arithmetic(const Expression& e) {
+  if (is_arithmetic(e) && !e.constant) return true;
+  if (e.kind == Kind::call || e.kind == Kind::index || e.kind == Kind::select) return false;
+  return std::any_of(e.operands.begin(), e.operands.end(), [](const ExpressionPtr& o) { return has_arithmetic(*o); });
+}
+
+std::string arm(const Expression& e, const Place& place) {
+  if (!place.precise || !place.arm || place.in_arm_arithmetic || !is_arithmetic(e) || e.constant) return "";
+  const bool several =
+      std::any_of(e.operands.begin(), e.operands.end(), [](const ExpressionPtr& o) { return has_arithmetic(*o); });
+  return several ? e.text : "";
+}
+
 struct Row {
   LintRule rule;
   std::string (*check)(const Expression&, const Place&);
@@ -221,6 +236,11 @@ constexpr Row kTable[] = {
     {{"compare",
       "`precise` does not reach arithmetic inside a comparison: store it in a `precise` variable, compare that"},
      compared},
+    {{"arm",
+      "drivers may lose `precise` between the operations within an arm of ?: (NVIDIA's does): store the arm's value in "
+      "a "
+      "`precise` variable first"},
+     arm},
     {{"constant",
       "arithmetic between constants is folded in double here and in float there: "
       "write the result as one literal, its closed form in a comment"},
@@ -270,16 +290,21 @@ void walk(const Expression& e, const Place& place, const Report& report) {
     if (const std::string operation = row.check(e, place); !operation.empty()) report(e, row.rule, operation);
 
   Place inner = place;
-  if (is_arithmetic(e)) inner.arithmetic = &e;
-  if (is_comparison(e)) return walk_operands(e, 0, {false, true, nullptr}, report);
+  if (is_arithmetic(e)) {
+    inner.arithmetic = &e;
+    inner.in_arm_arithmetic = inner.arm;
+  }
+  if (is_comparison(e)) return walk_operands(e, 0, {false, true}, report);
   switch (e.kind) {
     case Kind::declaration:
-      return walk_operands(e, 0, {e.precise, false, nullptr}, report);
+      return walk_operands(e, 0, {e.precise}, report);
     case Kind::assign:
       walk(*e.operands[0], {}, report);
       return walk_operands(e, 1, {e.precise, false, is_arithmetic(e) ? &e : nullptr}, report);
     case Kind::select:
       walk(*e.operands[0], {}, report);
+      inner.arm = true;
+      inner.in_arm_arithmetic = false;
       return walk_operands(e, 1, inner, report);
     case Kind::index:
       walk(*e.operands[0], inner, report);

@@ -71,20 +71,31 @@ std::string_view operator_name(std::string_view op) {
 }
 
 // vec3 exact_pow(vec3 a, float b) { return vec3(exact_pow(a.x, b), exact_pow(a.y, b), exact_pow(a.z, b)); }
-std::string by_component(const Entry& entry, const std::vector<GlslType>& arguments, int rows) {
-  const bool classifies = entry.builtin == "isnan" || entry.builtin == "isinf";
-  const std::string result = (classifies ? "bvec" : "vec") + std::to_string(rows);
-  std::string text = result + " " + std::string(entry.exact) + "(";
+std::string by_component(const std::string& result, const std::string& name, const std::vector<GlslType>& arguments,
+                         int rows) {
+  std::string text = result + " " + name + "(";
   for (std::size_t a = 0; a < arguments.size(); ++a)
     text += (a > 0 ? ", " : "") + type_text(arguments[a]) + " " + "abc"[a];
   text += ") { return " + result + "(";
   for (int i = 0; i < rows; ++i) {
-    text += (i > 0 ? ", " : "") + std::string(entry.exact) + "(";
+    text += (i > 0 ? ", " : "") + name + "(";
     for (std::size_t a = 0; a < arguments.size(); ++a) {
       text += (a > 0 ? ", " : "") + std::string(1, "abc"[a]);
       if (arguments[a].rows > 1) text += std::string(".") + "xyzw"[i];
     }
     text += ")";
+  }
+  return text + "); }";
+}
+
+// mat2 written_divide(mat2 a, float b) { return mat2(written_divide(a[0], b), written_divide(a[1], b)); }
+std::string by_column(const GlslType& matrix, const std::string& name, const std::vector<GlslType>& arguments) {
+  std::string text = type_text(matrix) + " " + name + "(" + type_text(arguments[0]) + " a, " + type_text(arguments[1]) +
+                     " b) { return " + type_text(matrix) + "(";
+  for (int i = 0; i < matrix.columns; ++i) {
+    const std::string at = "[" + std::to_string(i) + "]";
+    text += (i > 0 ? ", " : "") + name + "(a" + (arguments[0].columns > 1 ? at : "") + ", b" +
+            (arguments[1].columns > 1 ? at : "") + ")";
   }
   return text + "); }";
 }
@@ -112,7 +123,28 @@ std::string type_text(const GlslType& type) {
   return type.rows > 1 ? "vec" + rows : "float";
 }
 
+// The function itself is for scalars: vectors and matrices call it for each component.
+std::string ExactFunctions::written_out(const std::string& name, const std::vector<GlslType>& arguments) {
+  files_.insert("written_out");
+  const auto matrix =
+      std::find_if(arguments.begin(), arguments.end(), [](const GlslType& argument) { return argument.columns > 1; });
+  if (matrix != arguments.end()) {
+    std::vector<GlslType> columns = arguments;
+    for (GlslType& argument : columns) argument.columns = 1;
+    written_out(name, columns);
+    generated_matrices_.insert(by_column(*matrix, name, arguments));
+  } else if (const int rows = most_rows(arguments); rows > 1) {
+    generated_.insert(by_component("vec" + std::to_string(rows), name, arguments, rows));
+  }
+  return name;
+}
+
 std::string ExactFunctions::function(std::string_view builtin, const std::vector<GlslType>& arguments) {
+  if (written_out_) {
+    for (const std::string_view known : {"sqrt", "min", "max", "clamp"})
+      if (builtin == known) return written_out("written_" + std::string(builtin), arguments);
+    return "";
+  }
   if (builtin == "inversesqrt" || builtin == "radians" || builtin == "degrees" || builtin == "fma" ||
       builtin.substr(0, 6) == "fwidth") {
     files_.insert("operators");
@@ -135,7 +167,10 @@ std::string ExactFunctions::function(std::string_view builtin, const std::vector
     if (entry.builtin != builtin || entry.arguments != arguments.size()) continue;
     files_.insert(std::string(entry.file));
     const int rows = most_rows(arguments);
-    if (entry.componentwise && rows > 1) generated_.insert(by_component(entry, arguments, rows));
+    if (entry.componentwise && rows > 1) {
+      const std::string result = builtin == "isnan" || builtin == "isinf" ? "bvec" : "vec";
+      generated_.insert(by_component(result + std::to_string(rows), std::string(entry.exact), arguments, rows));
+    }
     // a scalar has a direction and a length too
     if (rows == 1 && (builtin == "dot" || builtin == "length" || builtin == "distance" || builtin == "normalize" ||
                       builtin == "reflect" || builtin == "refract" || builtin == "faceforward"))
@@ -146,6 +181,7 @@ std::string ExactFunctions::function(std::string_view builtin, const std::vector
 }
 
 std::string ExactFunctions::arithmetic(std::string_view op, const GlslType& left, const GlslType& right) {
+  if (written_out_) return written_out("written_divide", {left, right});
   files_.insert("operators");
   if (left.columns > 1 || right.columns > 1) files_.insert("matrix_operators");
   return std::string(operator_name(op));
@@ -179,6 +215,7 @@ std::string ExactFunctions::text(std::vector<std::string>& files) const {
     if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
   std::string text = prologue.text + "\n";
   for (const std::string& function : generated_) text += function + "\n";
+  for (const std::string& function : generated_matrices_) text += function + "\n";
   return text;
 }
 

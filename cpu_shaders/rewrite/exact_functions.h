@@ -15,9 +15,12 @@ namespace twinshade::lint_detail {
 // The functions that one rewritten shader needs.
 class ExactFunctions {
  public:
+  // written_out: / sqrt min max clamp alone, as shaders/exact/written_out.glsl has them.
+  explicit ExactFunctions(bool written_out = false) : written_out_(written_out) {}
+
   // Name to call instead of a built-in function; empty where there is none. Argument types: after conversion to float.
   std::string function(std::string_view builtin, const std::vector<GlslType>& arguments);
-  // Name to call instead of an operator: "+" gives exact_add.
+  // Name to call instead of an operator: "+" gives exact_add; written out, "/" gives written_divide.
   std::string arithmetic(std::string_view op, const GlslType& left, const GlslType& right);
   // x op= y as a call whose first argument is inout, where x may not be written twice. postfix: gives the old value.
   std::string assignment(std::string_view op, const GlslType& target, const GlslType& value, bool postfix);
@@ -33,8 +36,12 @@ class ExactFunctions {
   std::string text(std::vector<std::string>& files) const;
 
  private:
+  std::string written_out(const std::string& name, const std::vector<GlslType>& arguments);
+
+  bool written_out_;
   std::set<std::string> files_;
   std::set<std::string> generated_;
+  std::set<std::string> generated_matrices_;  // call functions of generated_
 };
 
 // The file in messages of what ExactFunctions adds, but for the files of shaders/exact/ themselves.

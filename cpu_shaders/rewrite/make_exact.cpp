@@ -53,7 +53,8 @@ std::string literal_text(float value) {
 
 class MakeExact : public Listener {
  public:
-  MakeExact(const TokenList& list, ExactScope scope) : edits_(list), scope_(scope) {}
+  MakeExact(const TokenList& list, ExactScope scope)
+      : edits_(list), functions_(scope == ExactScope::written_out), scope_(scope) {}
 
   void expression(const Expression& e, Role role) override {
     if (role == Role::constant) return;
@@ -70,7 +71,18 @@ class MakeExact : public Listener {
     bool used = true;       // something takes the value
   };
 
-  bool in_scope(const Expression& e) const { return scope_ == ExactScope::everything || e.constant; }
+  bool in_scope(const Expression& e) const {
+    switch (scope_) {
+      case ExactScope::everything:
+        return true;
+      case ExactScope::constants:
+        return e.constant;
+      case ExactScope::written_out:
+        return !e.constant;
+    }
+    return false;
+  }
+  bool in_scope(const std::string& op) const { return scope_ != ExactScope::written_out || op[0] == '/'; }
 
   // Each returns whether the expression, as rewritten, is no longer a constant one.
 
@@ -138,7 +150,7 @@ class MakeExact : public Listener {
   bool binary(const Expression& e) {
     bool varies = operands(e, is_comparison(e.text));
     const Expression &left = *e.operands[0], &right = *e.operands[1];
-    if (!is_arithmetic(e.text) || !is_float(e.type) || !in_scope(e)) return varies;
+    if (!is_arithmetic(e.text) || !is_float(e.type) || !in_scope(e) || !in_scope(e.text)) return varies;
     if (type_text(as_float(left.type)).empty() || type_text(as_float(right.type)).empty()) return varies;
     to_float(left);
     to_float(right);
@@ -154,7 +166,7 @@ class MakeExact : public Listener {
   bool assign(const Expression& e, Place place) {
     operands(e);
     const Expression& target = *e.operands[0];
-    if (!is_float(e.type) || scope_ != ExactScope::everything) return true;
+    if (!is_float(e.type) || scope_ == ExactScope::constants || !in_scope(e.text)) return true;
     const bool steps = e.text == "++" || e.text == "--";
     GlslType value_type;
     std::string value;
@@ -177,8 +189,9 @@ class MakeExact : public Listener {
     }
     if (e.text != "=")
       value = functions_.arithmetic(e.text, e.type, value_type) + "(" + text(target) + ", " + value + ")";
-    const bool component = target.kind == Kind::index && target.operands[0]->type.is_vector() &&
-                           !target.operands[1]->constant && is_repeatable(target);
+    const bool component = scope_ == ExactScope::everything && target.kind == Kind::index &&
+                           target.operands[0]->type.is_vector() && !target.operands[1]->constant &&
+                           is_repeatable(target);
     if (component) {
       const std::string vector = text(*target.operands[0]), index = text(*target.operands[1]);
       const std::string store =
@@ -263,11 +276,15 @@ ExactShader make_exact(const ShaderSource& source, ExactScope scope) {
   std::string text;
   if (!source.es)
     for (const std::string& extension : tokens.extensions) text += extension + "\n";
+  // The files of shaders/exact/ stand as they are before the shader, unless it is they too that are rewritten.
+  const auto stands_before = [&](const std::string& file) {
+    return scope == ExactScope::written_out ? exact_file(file) == "written_out" : !exact_file(file).empty();
+  };
   for (const std::string& file : tokens.files)
-    if (const std::string name = exact_file(file); !name.empty()) rewrite.functions_.include(name);
+    if (stands_before(file)) rewrite.functions_.include(exact_file(file));
   text += rewrite.functions_.text(result.source.files);
   if (result.uses_zero) text += std::string("uniform float ") + kExactZero + ";\n";
-  text += rewrite.edits_.lines([](const std::string& file) { return !exact_file(file).empty(); });
+  text += rewrite.edits_.lines(stands_before);
   result.source.text = text;
   try {
     result.left = lint(result.source);

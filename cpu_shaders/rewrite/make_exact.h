@@ -24,7 +24,9 @@ struct ExactShader {
 
 enum class ExactScope {
   everything,
-  constants,  // only arithmetic between constants: what compilers fold
+  constants,    // only arithmetic between constants: what compilers fold
+  written_out,  // only what of the dialect itself is inexact on graphics cards: / sqrt min max clamp, also within the
+                // files of shaders/exact/, by shaders/exact/written_out.glsl
 };
 
 // UserError where the shader is not valid GLSL.

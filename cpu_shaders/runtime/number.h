@@ -91,19 +91,46 @@ TWINSHADE_INLINE constexpr E shift_right(E a, std::uint32_t count) {  // arithme
   return static_cast<E>(a >> (count & 31u));
 }
 
+// x as an operand of arithmetic: where denormals are flushed, a zero for one. Compilers drop a multiplication by 1.
+template <Real E>
+TWINSHADE_INLINE E flushed(E x) {
+  std::uint32_t one = 1;
+  asm("" : "+r"(one));
+  return x * static_cast<E>(one);
+}
+
+// Of 0 and -0 the second, of a number and NaN the number. Floats and doubles as MINPS and MAXPS, and llvmpipe with
+// them, have it: denormals are zeros where they are flushed. By intrinsics, since a compiler may or may not make the
+// instruction of a comparison and a selection, which passes denormals.
 template <Element E>
 TWINSHADE_INLINE constexpr E minimum(E a, E b) {
-  if constexpr (Real<E>)
-    return (a < b || b != b) ? a : b;
-  else
-    return a < b ? a : b;
+  if constexpr (Real<E>) {
+    if (b != b) return a;
+    if (!std::is_constant_evaluated()) {
+#if defined(__SSE2__)
+      if constexpr (sizeof(E) == 4) return _mm_cvtss_f32(_mm_min_ss(_mm_set_ss(a), _mm_set_ss(b)));
+      if constexpr (sizeof(E) == 8) return _mm_cvtsd_f64(_mm_min_sd(_mm_set_sd(a), _mm_set_sd(b)));
+#else
+      return flushed(a < b ? a : b);
+#endif
+    }
+  }
+  return a < b ? a : b;
 }
 template <Element E>
 TWINSHADE_INLINE constexpr E maximum(E a, E b) {
-  if constexpr (Real<E>)
-    return (a > b || b != b) ? a : b;
-  else
-    return a > b ? a : b;
+  if constexpr (Real<E>) {
+    if (b != b) return a;
+    if (!std::is_constant_evaluated()) {
+#if defined(__SSE2__)
+      if constexpr (sizeof(E) == 4) return _mm_cvtss_f32(_mm_max_ss(_mm_set_ss(a), _mm_set_ss(b)));
+      if constexpr (sizeof(E) == 8) return _mm_cvtsd_f64(_mm_max_sd(_mm_set_sd(a), _mm_set_sd(b)));
+#else
+      return flushed(a > b ? a : b);
+#endif
+    }
+  }
+  return a > b ? a : b;
 }
 
 template <Real E>

@@ -380,16 +380,10 @@ struct Simd : SimdBase<Simd<E, W>, Simd<E, W / 2>, E, W> {
   }
   // The other operand where one is NaN; of +0 and -0 the second.
   friend TWINSHADE_INLINE Simd lanes_min(Simd a, Simd b) {
-    if constexpr (real)
-      return select((a < b) | (b != b), a, b);
-    else
-      return Base::template each<Simd>([](auto x, auto y) TWINSHADE_LAMBDA { return registers::lesser(x, y); }, a, b);
+    return Base::template each<Simd>([](auto x, auto y) TWINSHADE_LAMBDA { return registers::lesser(x, y); }, a, b);
   }
   friend TWINSHADE_INLINE Simd lanes_max(Simd a, Simd b) {
-    if constexpr (real)
-      return select((a > b) | (b != b), a, b);
-    else
-      return Base::template each<Simd>([](auto x, auto y) TWINSHADE_LAMBDA { return registers::larger(x, y); }, a, b);
+    return Base::template each<Simd>([](auto x, auto y) TWINSHADE_LAMBDA { return registers::larger(x, y); }, a, b);
   }
   friend TWINSHADE_INLINE Simd lanes_abs(Simd a) {
     if constexpr (real)

@@ -42,6 +42,13 @@ TWINSHADE_INLINE V by_lane(V x, F f) {
   return r;
 }
 
+template <class V, class F>
+TWINSHADE_INLINE V by_lanes(V x, V y, F f) {
+  V r;
+  for (std::size_t i = 0; i < sizeof(V) / 4; ++i) r[i] = f(x[i], y[i]);
+  return r;
+}
+
 // --- square root and rounding
 
 TWINSHADE_INLINE Float4 sqrt(Float4 x) {
@@ -136,7 +143,7 @@ template <class M, class V>
 TWINSHADE_INLINE V blend(M lanes, V x, V y) {
   return lanes ? x : y;
 }
-// Of integers.
+// As number::minimum and number::maximum.
 template <class V>
 TWINSHADE_INLINE V lesser(V x, V y) {
   return x < y ? x : y;
@@ -144,6 +151,20 @@ TWINSHADE_INLINE V lesser(V x, V y) {
 template <class V>
 TWINSHADE_INLINE V larger(V x, V y) {
   return x > y ? x : y;
+}
+TWINSHADE_INLINE Float4 lesser(Float4 x, Float4 y) {
+#if defined(__SSE2__)
+  return y != y ? x : (Float4)_mm_min_ps((__m128)x, (__m128)y);
+#else
+  return by_lanes(x, y, number::minimum<float>);
+#endif
+}
+TWINSHADE_INLINE Float4 larger(Float4 x, Float4 y) {
+#if defined(__SSE2__)
+  return y != y ? x : (Float4)_mm_max_ps((__m128)x, (__m128)y);
+#else
+  return by_lanes(x, y, number::maximum<float>);
+#endif
 }
 
 // --- masks (lanes 0 or -1)
@@ -188,6 +209,8 @@ TWINSHADE_INLINE Float8 round_even(Float8 x) {
 TWINSHADE_INLINE Int8 to_int(Float8 x) {
   return ((Int8)_mm256_cvttps_epi32((__m256)x) ^ (x >= splat<float, 8>(2147483648.0f))) & (x == x);
 }
+TWINSHADE_INLINE Float8 lesser(Float8 x, Float8 y) { return y != y ? x : (Float8)_mm256_min_ps((__m256)x, (__m256)y); }
+TWINSHADE_INLINE Float8 larger(Float8 x, Float8 y) { return y != y ? x : (Float8)_mm256_max_ps((__m256)x, (__m256)y); }
 TWINSHADE_INLINE bool any(Int8 m) { return _mm256_movemask_ps((__m256)m) != 0; }
 TWINSHADE_INLINE bool all(Int8 m) { return _mm256_movemask_ps((__m256)m) == 255; }
 TWINSHADE_INLINE std::uint32_t mask_bits(Int8 m) { return static_cast<std::uint32_t>(_mm256_movemask_ps((__m256)m)); }
@@ -236,6 +259,13 @@ TWINSHADE_COMPARISON(greater_equal, _CMP_GE_OQ, _MM_CMPINT_NLT)
 template <class V>
 requires(sizeof(V) == 64) TWINSHADE_INLINE V blend(__mmask16 m, V x, V y) {
   return (V)_mm512_mask_blend_epi32(m, (__m512i)y, (__m512i)x);
+}
+// The instruction only where y is a number: elsewhere x stays.
+TWINSHADE_INLINE Float16 lesser(Float16 x, Float16 y) {
+  return (Float16)_mm512_mask_min_ps((__m512)x, equal(y, y), (__m512)x, (__m512)y);
+}
+TWINSHADE_INLINE Float16 larger(Float16 x, Float16 y) {
+  return (Float16)_mm512_mask_max_ps((__m512)x, equal(y, y), (__m512)x, (__m512)y);
 }
 #endif
 

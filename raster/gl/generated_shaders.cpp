@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "cpu_shaders/rewrite/make_exact.h"
+
 namespace twinshade::gl {
 namespace {
 
@@ -9,20 +11,26 @@ const char kComponent[] = "xyzw";
 
 std::string number(std::size_t value) { return std::to_string(value); }
 
+std::string attribute_functions_text(bool written_out) {
+  ShaderSource source = resolve_shader("attributes", "#include \"exact/attributes.glsl\"\n", "shaders/generated.glsl");
+  if (written_out) {
+    source.text += "\nvoid main() {}\n";  // make_exact takes whole shaders
+    source = make_exact(source, ExactScope::written_out).source;
+  }
+  const TokenText tokens = tokenize(source, preprocess(source));
+  std::string functions;  // without its #line: in a driver's log these are generated lines
+  for (const Token& token : tokens.tokens) {
+    bool own = token.text == "ExactBarycentrics" || token.text == "main";
+    for (const char* prefix : {"exact_", "written_", "WRITTEN_"}) own = own || token.text.rfind(prefix, 0) == 0;
+    functions += (token.before.empty() ? "" : " ") + std::string(own ? kPrefix : "") + token.text;
+  }
+  return functions + "\n";
+}
+
 // shaders/exact/attributes.glsl under names that a user's shader cannot have.
-const std::string& exact_attribute_functions() {
-  static const std::string text = [] {
-    const ShaderSource source =
-        resolve_shader("attributes", "#include \"exact/attributes.glsl\"\n", "shaders/generated.glsl");
-    const TokenText tokens = tokenize(source, preprocess(source));
-    std::string functions;  // without its #line: in a driver's log these are generated lines
-    for (const Token& token : tokens.tokens) {
-      const bool own = token.text.rfind("exact_", 0) == 0 || token.text == "ExactBarycentrics";
-      functions += (token.before.empty() ? "" : " ") + std::string(own ? kPrefix : "") + token.text;
-    }
-    return functions + "\n";
-  }();
-  return text;
+const std::string& attribute_functions(bool written_out) {
+  static const std::string as_they_are = attribute_functions_text(false), by_integers = attribute_functions_text(true);
+  return written_out ? by_integers : as_they_are;
 }
 
 std::string component(const InputLeaf& leaf, std::uint32_t c) {
@@ -91,12 +99,13 @@ std::vector<InputLeaf> leaves_of(const std::vector<Input>& inputs) {
 }
 
 ShaderGenerator::ShaderGenerator(const ShaderSource& source, const FragmentShader& shader, std::vector<Input> inputs,
-                                 Supply supply, int glsl_version)
+                                 Supply supply, int glsl_version, bool written_out)
     : source_(source),
       shader_(shader),
       inputs_(std::move(inputs)),
       supply_(supply),
       glsl_version_(glsl_version),
+      written_out_(written_out),
       leaves_(leaves_of(inputs_)) {}
 
 std::vector<std::string> ShaderGenerator::component_names() const {
@@ -218,7 +227,7 @@ std::string ShaderGenerator::fragment(const std::string& outputs, const std::str
             " { uvec4 twinshade_position_list[]; };\nlayout(std430) readonly buffer " + kIndexBlock +
             " { uint twinshade_index_list[]; };\nuint twinshade_index(int i) { return twinshade_index_list[i]; }\n"
             "uvec4 twinshade_position(uint vertex) { return twinshade_position_list[vertex]; }\n";
-  if (needs_triangle()) text += "uniform vec2 twinshade_ndc_scale;\n" + exact_attribute_functions();
+  if (needs_triangle()) text += "uniform vec2 twinshade_ndc_scale;\n" + attribute_functions(written_out_);
   if (supply_ == Supply::texels) text += "uniform usampler2D twinshade_cpu_ids;\nbool twinshade_covered;\n";
   if (supply_ == Supply::texels || supply_ == Supply::rows)
     text += "uniform usampler2DArray twinshade_cpu_attributes;\n";

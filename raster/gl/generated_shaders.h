@@ -35,9 +35,10 @@ inline constexpr std::size_t kMostVertexAttributes = 15;
 
 class ShaderGenerator {
  public:
-  // glsl_version: 450, or 330 with extensions for softpipe.
+  // glsl_version: 450, or 330 with extensions for softpipe. written_out: what is generated, too, has its divisions as
+  // shaders/exact/written_out.glsl.
   ShaderGenerator(const ShaderSource& source, const FragmentShader& shader, std::vector<Input> inputs, Supply supply,
-                  int glsl_version);
+                  int glsl_version, bool written_out = false);
 
   const std::vector<InputLeaf>& leaves() const { return leaves_; }
   std::vector<std::string> component_names() const;  // as Frame::attribute_names
@@ -68,6 +69,7 @@ class ShaderGenerator {
   std::vector<Input> inputs_;
   Supply supply_;
   int glsl_version_;
+  bool written_out_;
   std::vector<InputLeaf> leaves_;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "cpu_shaders/rewrite/make_exact.h"
 #include "raster/gl/gl_session.h"
 
 namespace twinshade {
@@ -16,16 +17,17 @@ class GlRenderer final : public Renderer {
 
   std::string name() const override { return backend_name(backend_); }
 
-  Frame draw(const Bundle& bundle, const ShaderSource& source, const DrawOptions& options) override {
+  Frame draw(const Bundle& bundle, const ShaderSource& author, const DrawOptions& options) override {
     if (backend_ == GlBackend::softpipe)
       throw BackendError(
           "softpipe: its coverage is not comparable (4 subpixel bits): it shades what the CPU covered, see "
           "shade_on_softpipe");
     validate(bundle, "bundle");
-    const bool exact = options.attributes == AttributeMode::exact;
+    const bool exact = options.attributes == AttributeMode::exact, written_out = exact && session_.writes_out();
+    const ShaderSource source = written_out ? make_exact(author, ExactScope::written_out).source : author;
     const FragmentShader shader = rewrite_fragment_shader(source, exact ? InputStyle::globals : InputStyle::varyings);
     const ShaderGenerator generator(source, shader, supplied_inputs(bundle.attributes, source, shader.inputs),
-                                    exact ? Supply::exact : Supply::varyings, 450);
+                                    exact ? Supply::exact : Supply::varyings, 450, written_out);
     DrawRequest request = basic_request(bundle, source, generator, options.time_limit_seconds);
     const std::vector<std::string> names = generator.component_names();
     if (options.capture_attributes) {
@@ -52,6 +54,8 @@ class GlRenderer final : public Renderer {
                frame.attributes);
     }
     frame.provenance.emplace_back("attributes", exact ? "exact" : "native");
+    if (backend_ == GlBackend::gpu)
+      frame.provenance.emplace_back("division", written_out ? "written out" : "the card's");
     return frame;
   }
 
@@ -69,8 +73,9 @@ class GlRenderer final : public Renderer {
     return exchange(bundle, source, request, &cpu_frame, names);
   }
 
-  std::vector<Buffer> dispatch(const Bundle& bundle, const ShaderSource& source,
+  std::vector<Buffer> dispatch(const Bundle& bundle, const ShaderSource& author,
                                const std::array<std::uint32_t, 3>& groups, double time_limit_seconds) {
+    const ShaderSource source = session_.writes_out() ? make_exact(author, ExactScope::written_out).source : author;
     DrawRequest request;
     const std::string version = "#version " + std::to_string(source.version) + (source.es ? " es\n" : "\n");
     request.frame.compute = gl_text(source, version, "");

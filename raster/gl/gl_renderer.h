@@ -7,11 +7,16 @@
 
 namespace twinshade {
 
-enum class GlBackend : std::uint8_t { egl, osmesa, softpipe };
+// egl, osmesa: llvmpipe. gpu: a graphics card's own driver, through EGL; how far it may differ from the processor is
+// told in docs/graphics-cards.md.
+enum class GlBackend : std::uint8_t { egl, osmesa, softpipe, gpu };
 
 struct GlEnvironment {
-  int threads = 0;                                         // LP_NUM_THREADS; 0: as thread_count()
-  bool host_fma = true;                                    // false: GALLIUM_OVERRIDE_CPU_CAPS=sse4.1
+  int threads = 0;       // LP_NUM_THREADS; 0: as thread_count()
+  bool host_fma = true;  // false: GALLIUM_OVERRIDE_CPU_CAPS=sse4.1
+  // / sqrt min max clamp as shaders/exact/written_out.glsl has them, not as the driver does: for graphics cards, whose
+  // own are not exact. Not with native attributes.
+  bool written_out = false;
   std::vector<std::pair<std::string, std::string>> extra;  // further variables for the worker
 };
 

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "cpu_shaders/rewrite/make_exact.h"
 #include "raster/gl/gl_session.h"
 
 namespace twinshade {
@@ -15,9 +16,10 @@ class GlRowRenderer final : public RowRenderer {
   GlRowRenderer(GlBackend backend, GlEnvironment environment)
       : backend_(backend), session_(backend, std::move(environment)) {}
 
-  RowResults run(const FragmentRows& table, const ShaderSource& source, double time_limit_seconds) override {
+  RowResults run(const FragmentRows& table, const ShaderSource& author, double time_limit_seconds) override {
     TWINSHADE_CHECK_LE(std::size_t{1}, table.rows);
     TWINSHADE_CHECK_LE(table.rows, kMostGridRows);
+    const ShaderSource source = session_.writes_out() ? make_exact(author, ExactScope::written_out).source : author;
     const FragmentShader shader = rewrite_fragment_shader(source, InputStyle::rows);
     if (backend_ == GlBackend::softpipe && !shader.derivative.empty()) {
       refused_ = true;

@@ -16,7 +16,7 @@ namespace twinshade::gl {
 class GlSession {
  public:
   GlSession(GlBackend backend, GlEnvironment environment)
-      : backend_(backend), worker_(backend, std::move(environment)) {}
+      : backend_(backend), writes_out_(environment.written_out), worker_(backend, std::move(environment)) {}
 
   // One round trip. The memory shared with the worker holds at least `memory_size` bytes; `fill` writes there what the
   // worker is to read. UserError where the shader is rejected or lacks something, BackendError where the driver cannot.
@@ -24,12 +24,14 @@ class GlSession {
                      const std::function<void()>& fill);
   std::byte* memory() const { return shared_.data(); }
   bool started() const { return started_; }  // a worker has had a context to draw with
+  bool writes_out() const { return writes_out_; }
   std::vector<std::pair<std::string, std::string>> settings() const { return worker_.settings(); }
 
  private:
   [[noreturn]] void fail(const ShaderSource& source, const DrawReply& reply);
 
   const GlBackend backend_;
+  const bool writes_out_;
   WorkerProcess worker_;
   BundleImage image_;
   SharedMemory shared_;

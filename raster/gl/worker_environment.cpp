@@ -25,14 +25,15 @@ std::string name_of(const std::string& variable) { return variable.substr(0, var
 
 std::vector<std::pair<std::string, std::string>> worker_settings(GlBackend backend, const GlEnvironment& environment) {
   const int threads = environment.threads > 0 ? environment.threads : thread_count();
-  std::vector<std::pair<std::string, std::string>> settings = {
-      {"LIBGL_ALWAYS_SOFTWARE", "1"},
-      {"GALLIUM_DRIVER", backend == GlBackend::softpipe ? "softpipe" : "llvmpipe"},
-      {"LP_NUM_THREADS", std::to_string(threads)},
-      {"MESA_SHADER_CACHE_DISABLE", "true"},
-  };
-  if (backend != GlBackend::osmesa) settings.emplace_back("EGL_PLATFORM", "surfaceless");
-  if (!environment.host_fma) settings.emplace_back("GALLIUM_OVERRIDE_CPU_CAPS", "sse4.1");
+  std::vector<std::pair<std::string, std::string>> settings = {{"MESA_SHADER_CACHE_DISABLE", "true"}};
+  const bool software = backend != GlBackend::gpu;
+  if (software) {
+    settings.emplace_back("LIBGL_ALWAYS_SOFTWARE", "1");
+    settings.emplace_back("GALLIUM_DRIVER", backend == GlBackend::softpipe ? "softpipe" : "llvmpipe");
+    settings.emplace_back("LP_NUM_THREADS", std::to_string(threads));
+    if (backend != GlBackend::osmesa) settings.emplace_back("EGL_PLATFORM", "surfaceless");
+  }
+  if (software && !environment.host_fma) settings.emplace_back("GALLIUM_OVERRIDE_CPU_CAPS", "sse4.1");
   for (const auto& extra : environment.extra) {
     std::erase_if(settings, [&](const auto& setting) { return setting.first == extra.first; });
     settings.push_back(extra);
@@ -47,7 +48,9 @@ std::vector<std::string> worker_environment(GlBackend backend, const GlEnvironme
     const std::string text = *variable;
     const std::string name = name_of(text);
     const bool replaced = std::any_of(settings.begin(), settings.end(), [&](const auto& s) { return s.first == name; });
-    if (!steers_drivers(text) && !replaced && name != "ASAN_OPTIONS") result.push_back(text);
+    // Which vendors' drivers there are is the machine's business where a card is asked for.
+    const bool card = backend == GlBackend::gpu && name.rfind("__EGL_VENDOR_LIBRARY_", 0) == 0;
+    if ((card || !steers_drivers(text)) && !replaced && name != "ASAN_OPTIONS") result.push_back(text);
   }
   for (const auto& [name, value] : settings) result.push_back(name + "=" + value);
   // Under the address sanitizer a driver's crash must still be a signal, and its leaks are not ours.

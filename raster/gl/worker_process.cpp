@@ -91,6 +91,8 @@ const char* backend_name(GlBackend backend) {
       return "osmesa";
     case GlBackend::softpipe:
       return "softpipe";
+    case GlBackend::gpu:
+      return "gpu";
   }
   return "gl";
 }

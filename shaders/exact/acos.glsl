@@ -11,12 +11,14 @@ float exact_asin_small(float s, float z) {
 float exact_acos(float x) {
   precise float magnitude = abs(x);
   bool outer = magnitude > 0.5;
-  precise float z = outer ? (1.0 - magnitude) * 0.5 : x * x;
+  precise float half_rest = (1.0 - magnitude) * 0.5;
+  precise float z = outer ? half_rest : x * x;
   precise float root = sqrt(z);
   precise float angle = exact_asin_small(outer ? root : magnitude, z);
   bool negative = x < 0.0;
   precise float twice = angle * 2.0;
-  precise float near_end = negative ? 3.14159274 - (twice + 8.74227766e-8) : twice;  // pi = float(pi) - 8.74e-8
+  precise float behind = 3.14159274 - (twice + 8.74227766e-8);  // pi = float(pi) - 8.74e-8
+  precise float near_end = negative ? behind : twice;
   precise float signed_angle = negative ? -angle : angle;
   precise float near_middle = 1.57079637 - (signed_angle + 4.37113883e-8);           // pi/2 = float(pi/2) - 4.37e-8
   return outer ? near_end : near_middle;
@@ -25,7 +27,8 @@ float exact_acos(float x) {
 float exact_asin(float x) {
   precise float magnitude = abs(x);
   bool outer = magnitude > 0.5;
-  precise float z = outer ? (1.0 - magnitude) * 0.5 : x * x;
+  precise float half_rest = (1.0 - magnitude) * 0.5;
+  precise float z = outer ? half_rest : x * x;
   precise float root = sqrt(z);
   precise float angle = exact_asin_small(outer ? root : magnitude, z);
   precise float near_end = 1.57079637 - (angle * 2.0 + 4.37113883e-8);  // pi/2 = float(pi/2) - 4.37e-8

@@ -148,6 +148,19 @@ TEST_CASE("textures and storage buffers are read by name") {
   CHECK(value_at(rows.outputs[0], 1, 1) == doctest::Approx(3.00392));
 }
 
+TEST_CASE("of a denormal and another number min and max give zero where it is chosen, here as on llvmpipe") {
+  const ShaderSource shader = fragment(
+      "in float x; in float y; out vec3 r;\n"
+      "void main() { r = vec3(min(x, y), max(x, y), clamp(x, y, 1.0)); }\n");
+  const float tiny = 0x1p-130F;
+  const std::vector<float> x{tiny, 1, tiny, -tiny, 0, tiny}, y{1, tiny, -1, -1, tiny, 0};
+  const EvaluatedRows rows =
+      same_everywhere(shader, {6, {floats("x", "float", x), floats("y", "float", y)}, {}, {}, {}}, false);
+  CHECK(value_at(rows.outputs[0], 0, 0) == 0);
+  CHECK(value_at(rows.outputs[0], 1, 0) == 0);
+  CHECK(value_at(rows.outputs[0], 2, 1) == 0);
+}
+
 TEST_CASE("in double the outputs keep every digit") {
   Evaluator evaluator;
   const EvaluatedRows rows = evaluator.run(

@@ -49,8 +49,13 @@ U reverse(U x) {
 
 // Of 0 and -0 the second, as every machine of ours and llvmpipe have it (docs/exact-dialect.md). GLSL's text gives the
 // first.
-float smaller(float a, float b) { return std::isnan(a) ? b : std::isnan(b) ? a : a < b ? a : b; }
-float larger(float a, float b) { return std::isnan(a) ? b : std::isnan(b) ? a : a > b ? a : b; }
+// A result passes through arithmetic: a denormal one becomes 0 where they are flushed.
+float as_operand(float x) {
+  volatile float one = 1.0F;
+  return x * one;
+}
+float smaller(float a, float b) { return std::isnan(b) ? a : as_operand(!std::isnan(a) && a < b ? a : b); }
+float larger(float a, float b) { return std::isnan(b) ? a : as_operand(!std::isnan(a) && a > b ? a : b); }
 
 bool ordered(float a, float b) { return !std::isnan(a) && !std::isnan(b); }
 

@@ -42,10 +42,11 @@ void check_equal(const Frame& a, const Frame& b) {
 
 }  // namespace
 
-TEST_CASE("EGL, OSMesa, no fused multiply-add and one thread: the same bits with exact attributes") {
-  GlEnvironment unfused, one_thread;
+TEST_CASE("EGL, OSMesa, no fused multiply-add, one thread, division in integers: the same bits with exact attributes") {
+  GlEnvironment unfused, one_thread, written_out;
   unfused.host_fma = false;
   one_thread.threads = 1;
+  written_out.written_out = true;
   const auto egl = make_gl_renderer(GlBackend::egl);
   const std::vector<std::unique_ptr<Renderer>> others = [&] {
     std::vector<std::unique_ptr<Renderer>> list;
@@ -53,6 +54,7 @@ TEST_CASE("EGL, OSMesa, no fused multiply-add and one thread: the same bits with
     list.push_back(make_gl_renderer(GlBackend::egl, unfused));
     list.push_back(make_gl_renderer(GlBackend::osmesa, unfused));
     list.push_back(make_gl_renderer(GlBackend::egl, one_thread));
+    list.push_back(make_gl_renderer(GlBackend::egl, written_out));
     return list;
   }();
   DrawOptions options;

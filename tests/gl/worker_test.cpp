@@ -144,6 +144,17 @@ TEST_CASE("a program that is no worker is reported, not waited for") {
   unsetenv("TWINSHADE_WORKER");
 }
 
+TEST_CASE("a graphics card that is not there is refused, and a device of EGL's list draws") {
+  GlEnvironment nowhere, first;
+  nowhere.extra = {{"TWINSHADE_GPU", "99"}};
+  first.extra = {{"TWINSHADE_GPU", "0"}};  // Mesa's processor where there is no card
+  CHECK(
+      contains(error_of([&] { make_gl_renderer(GlBackend::gpu, nowhere)->draw(test::quad(8, 8), shader(kPlain), {}); }),
+               "gpu: TWINSHADE_GPU=99 is none among the"));
+  const Frame frame = make_gl_renderer(GlBackend::gpu, first)->draw(test::quad(8, 8), shader(kPlain), {});
+  CHECK(frame.color == make_gl_renderer(GlBackend::egl)->draw(test::quad(8, 8), shader(kPlain), {}).color);
+}
+
 TEST_CASE("the worker's environment is its own") {
   setenv("LP_NUM_THREADS", "99", 1);
   setenv("GALLIUM_DRIVER", "softpipe", 1);

@@ -74,6 +74,24 @@ TEST_CASE("constants are computed where both machines compute alike, and literal
   CHECK(body_of("mat3 x = mat3(2.0);") == "mat3x=exact_diagonal_3(2.0,exact_zero);");
 }
 
+TEST_CASE("written out are division, roots and limits alone, by component, within the files of shaders/exact/ too") {
+  const ExactScope scope = ExactScope::written_out;
+  CHECK(body_of("float x = a.x / b.x + a.y * 2.0;", scope) == "floatx=written_divide(a.x,b.x)+a.y*2.0;");
+  CHECK(body_of("vec3 v = a / b.x; v /= 3.0;", scope) == "vec3v=written_divide(a,b.x);v=written_divide(v,3.0);");
+  CHECK(body_of("float x[3]; int i = 0; x[i++] /= a.x;", scope) == "floatx[3];inti=0;written_divide_to(x[i++],a.x);");
+  CHECK(body_of("vec3 v = a; v[k] /= b.x;", scope) == "vec3v=a;v[k]=written_divide(v[k],b.x);");
+  CHECK(body_of("int i = k / 3; float x = 1.0 / 3.0 + sqrt(2.0);", scope) == "inti=k/3;floatx=1.0/3.0+sqrt(2.0);");
+  CHECK(body_of("vec3 v = max(a, 0.0); float x = clamp(a.x, 0.0, 1.0) + min(k, 3);", scope) ==
+        "vec3v=written_max(a,0.0);floatx=written_clamp(a.x,0.0,1.0)+min(k,3);");
+  CHECK(body_of("mat3 x = m / a.x;", scope) == "mat3x=written_divide(m,a.x);");
+  const ShaderSource nested = resolve_shader(
+      "sample", "#include \"exact/normalize.glsl\"\nin vec3 a; out vec3 r;\nvoid main() { r = exact_normalize(a); }\n",
+      "sample.frag");
+  const std::string text = make_exact(nested, scope).source.text;
+  CHECK(text.find("written_sqrt (") != std::string::npos);
+  CHECK(text.find("= written_divide(") != std::string::npos);
+}
+
 TEST_CASE("the scope of constants leaves the rest alone") {
   CHECK(body_of("float x = a.x * (0.1 * 3.0) + 0.0;", ExactScope::constants) ==
         "floatx=a.x*(exact_multiply(0.1,3.0))+0.0;");

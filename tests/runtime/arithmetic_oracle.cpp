@@ -52,15 +52,14 @@ std::map<std::string, Oracle> arithmetic_oracles(bool flush) {
   // Bits move unchanged.
   o["-a"] = {[](Word a, Word, Word) { return Words{a ^ 0x80000000u}; }};
   o["abs(a)"] = {[](Word a, Word, Word) { return Words{a & 0x7fffffffu}; }};
+  // MINPS and MAXPS, but for the number where the second is NaN.
   o["min(a, b)"] = {[=](Word a, Word b, Word) {
-    if (std::isnan(in(a))) return Words{b};
     if (std::isnan(in(b))) return Words{a};
-    return Words{in(a) < in(b) ? a : b};
+    return Words{std::isnan(in(a)) ? out(in(b)) : out(in(a) < in(b) ? in(a) : in(b))};
   }};
   o["max(a, b)"] = {[=](Word a, Word b, Word) {
-    if (std::isnan(in(a))) return Words{b};
     if (std::isnan(in(b))) return Words{a};
-    return Words{in(a) > in(b) ? a : b};
+    return Words{std::isnan(in(a)) ? out(in(b)) : out(in(a) > in(b) ? in(a) : in(b))};
   }};
 
   const auto truth = [&](const char* name, auto f) {

@@ -66,9 +66,10 @@ void compare_with_scalar(const GroupOfSets& group, const char* isa, const Operat
     for (std::size_t i = 0; i < got.size(); ++i) {
       if (!same(got[i], want[i], operation.real_results) && differ++ == 0) first = i;
     }
-    CHECK_MESSAGE(differ == 0, std::string(operation.name), " ", set.policy, " ", isa, flush ? " flushed" : " kept",
-                  ": ", differ, " differ; ", row_text(rows, first % rows.count()), " result ", first / rows.count(),
-                  " is ", show(got[first]), ", scalar ", show(want[first]));
+    CHECK_MESSAGE(differ == 0, std::string(operation.name), " ", std::string(set.policy), " ", std::string(isa),
+                  std::string(flush ? " flushed" : " kept"), ": ", differ, " differ; ",
+                  row_text(rows, first % rows.count()), " result ", first / rows.count(), " is ", show(got[first]),
+                  ", scalar ", show(want[first]));
   }
 }
 
@@ -103,8 +104,8 @@ void compare_with_oracles(const OperationSet& set, const std::map<std::string, O
         }
       }
     }
-    CHECK_MESSAGE(wrong == 0, std::string(operation.name), flush ? " flushed" : " kept", ": ", wrong, " wrong; ",
-                  first);
+    CHECK_MESSAGE(wrong == 0, std::string(operation.name), std::string(flush ? " flushed" : " kept"), ": ", wrong,
+                  " wrong; ", first);
     CHECK_MESSAGE(defined > 100, std::string(operation.name), ": only ", defined, " rows are defined");
   }
   CHECK(used == oracles.size());  // none is misspelt

@@ -1,4 +1,5 @@
-// Khronos: EGL 1.5; EGL_MESA_platform_surfaceless; EGL_KHR_no_config_context. Mesa: include/GL/osmesa.h.
+// Khronos: EGL 1.5; EGL_MESA_platform_surfaceless; EGL_EXT_platform_device; EGL_EXT_device_enumeration;
+// EGL_KHR_no_config_context. Mesa: include/GL/osmesa.h.
 #include "raster/gl/worker/gl_context.h"
 
 #include <EGL/egl.h>
@@ -7,7 +8,9 @@
 #include <dlfcn.h>
 
 #include <array>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <stdexcept>
 
 namespace twinshade::gl {
@@ -35,13 +38,9 @@ class Library {
 
 class EglContext final : public GlContext {
  public:
-  explicit EglContext(bool full_version) : library_("TWINSHADE_EGL_LIBRARY", "libEGL.so.1") {
-    const auto get_procedure = library_.get<decltype(eglGetProcAddress)>("eglGetProcAddress");
-    const auto get_display =
-        reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(get_procedure("eglGetPlatformDisplayEXT"));
-    if (get_display == nullptr) throw std::runtime_error("EGL has no platform displays (EGL_EXT_platform_base)");
-    const EGLDisplay display = get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-    if (display == EGL_NO_DISPLAY) fail("no surfaceless display (EGL_MESA_platform_surfaceless)");
+  explicit EglContext(GlBackend backend) : library_("TWINSHADE_EGL_LIBRARY", "libEGL.so.1") {
+    const bool full_version = backend != GlBackend::softpipe;
+    const EGLDisplay display = backend == GlBackend::gpu ? card_display() : surfaceless_display();
     if (!library_.get<decltype(eglInitialize)>("eglInitialize")(display, nullptr, nullptr))
       fail("eglInitialize failed");
     if (!library_.get<decltype(eglBindAPI)>("eglBindAPI")(EGL_OPENGL_API)) fail("EGL has no desktop OpenGL");
@@ -57,10 +56,54 @@ class EglContext final : public GlContext {
     if (context == EGL_NO_CONTEXT) fail(full_version ? "no OpenGL 4.5 core context" : "no OpenGL 3.3 core context");
     if (!library_.get<decltype(eglMakeCurrent)>("eglMakeCurrent")(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context))
       fail("eglMakeCurrent without a surface failed");
-    load(get_procedure);
+    load(library_.get<decltype(eglGetProcAddress)>("eglGetProcAddress"));
   }
 
  private:
+  // An extension's function: null where EGL does not know it.
+  template <class Function>
+  Function extension(const char* name) const {
+    return reinterpret_cast<Function>(library_.get<decltype(eglGetProcAddress)>("eglGetProcAddress")(name));
+  }
+
+  EGLDisplay platform_display(EGLenum platform, void* native) const {
+    const auto get_display = extension<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
+    if (get_display == nullptr) throw std::runtime_error("EGL has no platform displays (EGL_EXT_platform_base)");
+    return get_display(platform, native, nullptr);
+  }
+
+  EGLDisplay surfaceless_display() const {
+    const EGLDisplay display = platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY);
+    if (display == EGL_NO_DISPLAY) fail("no surfaceless display (EGL_MESA_platform_surfaceless)");
+    return display;
+  }
+
+  // The first device that is not Mesa's processor, or the one that TWINSHADE_GPU numbers.
+  EGLDisplay card_display() const {
+    const auto query = extension<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
+    const auto describe = extension<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
+    if (query == nullptr || describe == nullptr)
+      throw std::runtime_error("EGL does not list devices (EGL_EXT_device_enumeration)");
+    EGLDeviceEXT devices[64];
+    EGLint count = 0;
+    if (!query(64, devices, &count)) fail("eglQueryDevicesEXT failed");
+    const char* wanted = std::getenv("TWINSHADE_GPU");
+    EGLint chosen = -1;
+    for (EGLint i = 0; i < count && chosen < 0; ++i) {
+      const char* extensions = describe(devices[i], EGL_EXTENSIONS);
+      const bool software = extensions != nullptr && std::strstr(extensions, "EGL_MESA_device_software") != nullptr;
+      if (wanted != nullptr ? std::to_string(i) == wanted : !software) chosen = i;
+    }
+    const std::string among = "among the " + std::to_string(count) + " devices of EGL";
+    if (chosen < 0 && wanted != nullptr)
+      throw std::runtime_error("TWINSHADE_GPU=" + std::string(wanted) + " is none " + among + ", counted from 0");
+    if (chosen < 0)
+      throw std::runtime_error("no graphics card " + among + ": its driver's EGL library is not installed");
+    const EGLDisplay display = platform_display(EGL_PLATFORM_DEVICE_EXT, devices[chosen]);
+    if (display == EGL_NO_DISPLAY) fail("no display on the graphics card (EGL_EXT_platform_device)");
+    return display;
+  }
+
   [[noreturn]] void fail(const std::string& what) const {
     char code[16];
     std::snprintf(code, sizeof code, "0x%04x", unsigned(library_.get<decltype(eglGetError)>("eglGetError")()));
@@ -119,7 +162,7 @@ std::vector<std::pair<std::string, std::string>> GlContext::provenance() const {
 
 std::unique_ptr<GlContext> make_context(GlBackend backend) {
   if (backend == GlBackend::osmesa) return std::make_unique<OsMesaContext>();
-  return std::make_unique<EglContext>(backend == GlBackend::egl);
+  return std::make_unique<EglContext>(backend);
 }
 
 void check_errors(const GlFunctions& gl, const std::string& what) {

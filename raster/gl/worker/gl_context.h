@@ -23,8 +23,9 @@ class GlContext {
   GlFunctions functions_;
 };
 
-// Mesa's surfaceless platform through EGL (egl, softpipe), or OSMesa. The library is libEGL.so.1 or libOSMesa.so.8, or
-// what TWINSHADE_EGL_LIBRARY or TWINSHADE_OSMESA_LIBRARY names. std::runtime_error with the reason where there is none.
+// Mesa's surfaceless platform through EGL (egl, softpipe), a device of EGL's list (gpu: the first graphics card, or the
+// device that TWINSHADE_GPU numbers from 0), or OSMesa. The library is libEGL.so.1 or libOSMesa.so.8, or what
+// TWINSHADE_EGL_LIBRARY or TWINSHADE_OSMESA_LIBRARY names. std::runtime_error with the reason where there is none.
 std::unique_ptr<GlContext> make_context(GlBackend backend);
 
 }  // namespace twinshade::gl

@@ -77,7 +77,7 @@ std::optional<int> run_gl_worker_if_asked(int argc, char** argv) {
   if (argc != 3 || std::strcmp(argv[1], gl::kWorkerArgument) != 0) return std::nullopt;
   const rlimit no_core_files{0, 0};
   setrlimit(RLIMIT_CORE, &no_core_files);
-  for (const GlBackend backend : {GlBackend::egl, GlBackend::osmesa, GlBackend::softpipe})
+  for (const GlBackend backend : {GlBackend::egl, GlBackend::osmesa, GlBackend::softpipe, GlBackend::gpu})
     if (std::strcmp(argv[2], gl::backend_name(backend)) == 0) return gl::serve(backend);
   return 2;
 }

@@ -183,6 +183,10 @@ void add_subject_options(CLI::App& command, SubjectOptions& options) {
   add_parsed(command, "--order", "N", "order of the visibility whose principal components are taken (default: 6)",
              given("--order",
                    [&](const std::string& text) { options.visibility.order = parse_between("--order", text, 2, 6); }));
+  add_parsed(
+      command, "--pca-metric", "visibility|irradiance",
+      "what components keep most of: visibility, for any light, or irradiance under this one (default: visibility)",
+      given("--pca-metric", [&](const std::string& text) { options.visibility.metric = find_pca_metric(text); }));
   add_parsed(command, "--visibility-rays", "N", "directions over the sphere per texel or vertex (default: 512)",
              given("--visibility-rays", [&](const std::string& text) {
                options.visibility_rays = parse_between<std::uint32_t>("--visibility-rays", text, 1, kMostRays);

@@ -31,6 +31,18 @@ std::vector<double> blockwise_sum(std::size_t cells, std::size_t size, const Bod
   return sum;
 }
 
+// The symmetric root of a metric, and its inverse; of none: identity.
+struct Root {
+  Eigen::MatrixXd forth, back;
+};
+Root root_of(std::span<const double> metric, std::size_t n) {
+  const auto size = Eigen::Index(n);
+  if (metric.empty()) return {Eigen::MatrixXd::Identity(size, size), Eigen::MatrixXd::Identity(size, size)};
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
+      Eigen::Map<const Eigen::MatrixXd>(metric.data(), size, size));
+  return {solver.operatorSqrt(), solver.operatorInverseSqrt()};
+}
+
 }  // namespace
 
 double PrincipalComponents::tail(std::size_t components) const {
@@ -40,14 +52,17 @@ double PrincipalComponents::tail(std::size_t components) const {
 }
 
 PrincipalComponents principal_components(std::span<const float> values, std::size_t stride, std::size_t dimension,
-                                         std::span<const float> cell_weights, std::size_t components) {
+                                         std::span<const float> cell_weights, std::size_t components,
+                                         std::span<const double> metric) {
   TWINSHADE_CHECK_EQ(values.size(), stride * cell_weights.size());
   TWINSHADE_CHECK_LE(dimension, stride);
+  if (!metric.empty()) TWINSHADE_CHECK_EQ(metric.size(), dimension * dimension);
   const std::size_t cells = cell_weights.size(), n = dimension;
   PrincipalComponents out;
   out.dimension = n;
   out.mean.assign(n, 0.0);
   out.vectors.assign(components * n, 0.0);
+  out.duals.assign(components * n, 0.0);
   out.eigenvalues.assign(n, 0.0);
 
   // Weight, then weighted sum and sum of squares
@@ -72,14 +87,16 @@ PrincipalComponents principal_components(std::span<const float> values, std::siz
     }
   });
   Eigen::MatrixXd covariance(n, n);
-  double mean_square = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    mean_square += out.mean[i] * out.mean[i];
+  for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k <= i; ++k)
       covariance(Eigen::Index(i), Eigen::Index(k)) = covariance(Eigen::Index(k), Eigen::Index(i)) =
           second[i * n + k] / first[0];
-  }
+  // Components of the values times the metric's root: there its distance is a sum of squares
+  const Root root = root_of(metric, n);
+  if (!metric.empty()) covariance = (root.forth * covariance * root.forth).eval();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);  // ascending
+  const double mean_square =
+      (root.forth * Eigen::Map<const Eigen::VectorXd>(out.mean.data(), Eigen::Index(n))).squaredNorm();
   const double least = kNoVariance * (mean_square + covariance.trace());
   for (std::size_t m = 0; m < n; ++m) {
     const Eigen::Index column = Eigen::Index(n - 1 - m);
@@ -87,12 +104,15 @@ PrincipalComponents principal_components(std::span<const float> values, std::siz
     if (!(eigenvalue > least)) break;
     out.eigenvalues[m] = eigenvalue;
     if (m >= components) continue;
-    const auto vector = solver.eigenvectors().col(column);
+    const Eigen::VectorXd eigenvector = solver.eigenvectors().col(column), vector = root.back * eigenvector,
+                          dual = root.forth * eigenvector;
     Eigen::Index largest = 0;
     for (Eigen::Index k = 1; k < Eigen::Index(n); ++k)
       if (std::abs(vector(k)) > std::abs(vector(largest))) largest = k;
-    for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t k = 0; k < n; ++k) {
       out.vectors[m * n + k] = vector(largest) < 0 ? -vector(Eigen::Index(k)) : vector(Eigen::Index(k));
+      out.duals[m * n + k] = vector(largest) < 0 ? -dual(Eigen::Index(k)) : dual(Eigen::Index(k));
+    }
   }
   return out;
 }
@@ -107,7 +127,7 @@ std::vector<float> PrincipalComponents::project(std::span<const float> values, s
       for (std::size_t m = 0; m < components; ++m) {
         double sum = 0;
         for (std::size_t k = 0; k < dimension; ++k)
-          sum += vectors[m * dimension + k] * (values[cell * stride + k] - mean[k]);
+          sum += duals[m * dimension + k] * (values[cell * stride + k] - mean[k]);
         weights[cell * components + m] = float(sum);
       }
   });

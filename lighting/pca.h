@@ -13,11 +13,12 @@ namespace twinshade {
 struct PrincipalComponents {
   std::size_t dimension = 0;
   std::vector<double> mean;         // [dimension]
-  std::vector<double> vectors;      // [component * dimension + k]: orthonormal, most variance first
+  std::vector<double> vectors;      // [component * dimension + k]: orthonormal in the metric, most variance first
+  std::vector<double> duals;        // the same through the metric: weight_m = dual_m . (value - mean)
   std::vector<double> eigenvalues;  // [dimension]: of the weighted covariance, none below zero, descending
 
   std::size_t count() const { return dimension == 0 ? 0 : vectors.size() / dimension; }
-  // Mean squared error (weighted, summed over dimensions) of using the first `components`.
+  // Mean squared error (weighted; the square of the metric's distance) of using the first `components`.
   double tail(std::size_t components) const;
   // weights[cell * components + m] of values[cell * stride + k], for the first `components` vectors.
   std::vector<float> project(std::span<const float> values, std::size_t stride, std::size_t components) const;
@@ -27,7 +28,10 @@ struct PrincipalComponents {
 // components vectors are returned; those beyond the rank of the data, or beyond the dimension, are zero, so that their
 // weights are zero too. A vector's sign: its component of largest magnitude is positive (the first of equals). No cell
 // of positive weight: all is zero. UserError where a counted value is not finite.
+// metric[i * dimension + k], symmetric and positive definite: the square of a difference d is d' metric d, and M
+// components leave the least of that which M numbers a cell can. Empty: the sum of squares.
 PrincipalComponents principal_components(std::span<const float> values, std::size_t stride, std::size_t dimension,
-                                         std::span<const float> cell_weights, std::size_t components);
+                                         std::span<const float> cell_weights, std::size_t components,
+                                         std::span<const double> metric = {});
 
 }  // namespace twinshade

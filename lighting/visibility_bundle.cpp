@@ -7,7 +7,9 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/names.h"
 #include "base/portable_math.h"
+#include "lighting/irradiance_metric.h"
 #include "lighting/light_tables.h"
 #include "lighting/pca.h"
 #include "lighting/radiance_basis.h"
@@ -46,8 +48,13 @@ class Adder {
     // The principal components serve every count: fewer are the first of more
     std::size_t most = 0;
     for (const VisibilityBake& bake : bakes_) most = std::max(most, most_weights(VisibilityWeights::pca, bake.storage));
-    if (most > 0)
-      components_ = principal_components(bakes_[0].sh, kVisibilityCount, square(options_.order), bakes_[0].area, most);
+    if (most > 0) {
+      std::vector<double> metric;
+      if (options_.metric == PcaMetric::irradiance)
+        metric = irradiance_metric(options_.metric_light.empty() ? radiance_ : options_.metric_light, options_.order);
+      components_ =
+          principal_components(bakes_[0].sh, kVisibilityCount, square(options_.order), bakes_[0].area, most, metric);
+    }
     for (const VisibilityBake& bake : bakes_)
       for (const VisibilityWeights weights :
            {VisibilityWeights::sh, VisibilityWeights::pca, VisibilityWeights::ambient})
@@ -157,12 +164,26 @@ class Adder {
 
 }  // namespace
 
+std::string_view pca_metric_name(PcaMetric metric) {
+  return metric == PcaMetric::visibility ? "visibility" : "irradiance";
+}
+
+PcaMetric find_pca_metric(const std::string& name) {
+  std::vector<std::string> names;
+  for (const PcaMetric metric : {PcaMetric::visibility, PcaMetric::irradiance}) {
+    names.emplace_back(pca_metric_name(metric));
+    if (names.back() == name) return metric;
+  }
+  throw UserError(unknown_name_message("metric", name, names));
+}
+
 void add_visibility(Bundle& bundle, const Scene& scene, std::span<const VisibilityBake> bakes,
                     std::span<const double> radiance, std::span<const LitTechnique> wanted,
                     const VisibilityLighting& options) {
   if (options.order < 2 || options.order > kMostOrder)
     throw UserError(fmt::format("visibility order {}: must be from 2 to {}", options.order, kMostOrder));
   TWINSHADE_CHECK_EQ(radiance.size(), square(kMostOrder) * 3);
+  if (!options.metric_light.empty()) TWINSHADE_CHECK_EQ(options.metric_light.size(), radiance.size());
   if (bakes.empty()) return;
   add_attribute(bundle, "v_normal", scene.normals);
   add_attribute(bundle, "v_tangent", scene.tangents);
@@ -182,6 +203,7 @@ void add_visibility(Bundle& bundle, const Scene& scene, std::span<const Visibili
   bundle.notes.emplace_back("maps", maps);
   bundle.notes.emplace_back("map_width", std::to_string(options.map_width));
   bundle.notes.emplace_back("visibility_order", std::to_string(options.order));
+  bundle.notes.emplace_back("pca_metric", std::string(pca_metric_name(options.metric)));
   bundle.notes.emplace_back("visibility_storage", std::string(texel_storage_name(options.storage)));
   bundle.notes.emplace_back(kPackingNote, std::string(texture_packing_name(options.packing)));
 }

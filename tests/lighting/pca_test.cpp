@@ -135,4 +135,40 @@ TEST_CASE("no cell that counts gives zeros; a value that is not finite is refuse
   CHECK_THROWS_AS(principal_components(broken, 2, 2, std::vector<float>{1, 1}, 2), UserError);
 }
 
+TEST_CASE(
+    "with a metric, the mean of the squared distance is the tail of the eigenvalues, and no other vectors leave less") {
+  const Field field = random_field();
+  // Positive definite: a diagonal of 1 and more, and a rank-one part
+  std::vector<double> metric(kDimension * kDimension);
+  for (std::size_t i = 0; i < kDimension; ++i)
+    for (std::size_t k = 0; k < kDimension; ++k)
+      metric[i * kDimension + k] = (i == k ? 1.0 + double(i % 3) : 0.0) + 0.25 * double(i) * double(k);
+  const auto error_of = [&](const PrincipalComponents& components, std::size_t count) {
+    const std::vector<float> weights = components.project(field.values, kStride, count);
+    double sum = 0, whole = 0;
+    for (std::size_t cell = 0; cell < kCells; ++cell) {
+      double difference[kDimension];
+      for (std::size_t k = 0; k < kDimension; ++k) {
+        difference[k] = components.mean[k] - field.values[cell * kStride + k];
+        for (std::size_t m = 0; m < count; ++m)
+          difference[k] += double(weights[cell * count + m]) * components.vectors[m * kDimension + k];
+      }
+      for (std::size_t i = 0; i < kDimension; ++i)
+        for (std::size_t k = 0; k < kDimension; ++k)
+          sum += field.weights[cell] * difference[i] * metric[i * kDimension + k] * difference[k];
+      whole += field.weights[cell];
+    }
+    return sum / whole;
+  };
+  const PrincipalComponents plain = principal_components(field.values, kStride, kDimension, field.weights, kDimension);
+  const PrincipalComponents metered =
+      principal_components(field.values, kStride, kDimension, field.weights, kDimension, metric);
+  for (std::size_t count = 0; count <= kDimension; ++count) {
+    INFO("M = " << count);
+    CHECK(std::fabs(error_of(metered, count) - metered.tail(count)) < 1e-5 * metered.tail(count) + 1e-10);
+    CHECK(error_of(metered, count) <= error_of(plain, count) * (1 + 1e-5) + 1e-10);
+  }
+  CHECK(error_of(metered, 2) < 0.9 * error_of(plain, 2));
+}
+
 }  // namespace twinshade

@@ -91,12 +91,13 @@ TWINSHADE_INLINE constexpr E shift_right(E a, std::uint32_t count) {  // arithme
   return static_cast<E>(a >> (count & 31u));
 }
 
-// x as an operand of arithmetic: where denormals are flushed, a zero for one. Compilers drop a multiplication by 1.
+// A number times this comes back as arithmetic sees it: a denormal as zero where they are flushed. Compilers drop a
+// multiplication by a 1 that they know.
 template <Real E>
-TWINSHADE_INLINE E flushed(E x) {
+TWINSHADE_INLINE E unknown_one() {
   std::uint32_t one = 1;
   asm("" : "+r"(one));
-  return x * static_cast<E>(one);
+  return static_cast<E>(one);
 }
 
 // Of 0 and -0 the second, of a number and NaN the number. Floats and doubles as MINPS and MAXPS, and llvmpipe with
@@ -111,7 +112,7 @@ TWINSHADE_INLINE constexpr E minimum(E a, E b) {
       if constexpr (sizeof(E) == 4) return _mm_cvtss_f32(_mm_min_ss(_mm_set_ss(a), _mm_set_ss(b)));
       if constexpr (sizeof(E) == 8) return _mm_cvtsd_f64(_mm_min_sd(_mm_set_sd(a), _mm_set_sd(b)));
 #else
-      return flushed(a < b ? a : b);
+      return (a < b ? a : b) * unknown_one<E>();
 #endif
     }
   }
@@ -126,7 +127,7 @@ TWINSHADE_INLINE constexpr E maximum(E a, E b) {
       if constexpr (sizeof(E) == 4) return _mm_cvtss_f32(_mm_max_ss(_mm_set_ss(a), _mm_set_ss(b)));
       if constexpr (sizeof(E) == 8) return _mm_cvtsd_f64(_mm_max_sd(_mm_set_sd(a), _mm_set_sd(b)));
 #else
-      return flushed(a > b ? a : b);
+      return (a > b ? a : b) * unknown_one<E>();
 #endif
     }
   }

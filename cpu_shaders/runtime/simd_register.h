@@ -42,13 +42,6 @@ TWINSHADE_INLINE V by_lane(V x, F f) {
   return r;
 }
 
-template <class V, class F>
-TWINSHADE_INLINE V by_lanes(V x, V y, F f) {
-  V r;
-  for (std::size_t i = 0; i < sizeof(V) / 4; ++i) r[i] = f(x[i], y[i]);
-  return r;
-}
-
 // --- square root and rounding
 
 TWINSHADE_INLINE Float4 sqrt(Float4 x) {
@@ -156,14 +149,14 @@ TWINSHADE_INLINE Float4 lesser(Float4 x, Float4 y) {
 #if defined(__SSE2__)
   return y != y ? x : (Float4)_mm_min_ps((__m128)x, (__m128)y);
 #else
-  return by_lanes(x, y, number::minimum<float>);
+  return y != y ? x : (x < y ? x : y) * splat<float, 4>(number::unknown_one<float>());
 #endif
 }
 TWINSHADE_INLINE Float4 larger(Float4 x, Float4 y) {
 #if defined(__SSE2__)
   return y != y ? x : (Float4)_mm_max_ps((__m128)x, (__m128)y);
 #else
-  return by_lanes(x, y, number::maximum<float>);
+  return y != y ? x : (x > y ? x : y) * splat<float, 4>(number::unknown_one<float>());
 #endif
 }
 

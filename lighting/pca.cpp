@@ -33,7 +33,7 @@ std::vector<double> blockwise_sum(std::size_t cells, std::size_t size, const Bod
 
 // The symmetric root of a metric, and its inverse; of none: identity.
 struct Root {
-  Eigen::MatrixXd forth, back;
+  Eigen::MatrixXd sqrt, inverse_sqrt;
 };
 Root root_of(std::span<const double> metric, std::size_t n) {
   const auto size = Eigen::Index(n);
@@ -93,10 +93,10 @@ PrincipalComponents principal_components(std::span<const float> values, std::siz
           second[i * n + k] / first[0];
   // Components of the values times the metric's root: there its distance is a sum of squares
   const Root root = root_of(metric, n);
-  if (!metric.empty()) covariance = (root.forth * covariance * root.forth).eval();
+  if (!metric.empty()) covariance = (root.sqrt * covariance * root.sqrt).eval();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);  // ascending
   const double mean_square =
-      (root.forth * Eigen::Map<const Eigen::VectorXd>(out.mean.data(), Eigen::Index(n))).squaredNorm();
+      (root.sqrt * Eigen::Map<const Eigen::VectorXd>(out.mean.data(), Eigen::Index(n))).squaredNorm();
   const double least = kNoVariance * (mean_square + covariance.trace());
   for (std::size_t m = 0; m < n; ++m) {
     const Eigen::Index column = Eigen::Index(n - 1 - m);
@@ -104,8 +104,8 @@ PrincipalComponents principal_components(std::span<const float> values, std::siz
     if (!(eigenvalue > least)) break;
     out.eigenvalues[m] = eigenvalue;
     if (m >= components) continue;
-    const Eigen::VectorXd eigenvector = solver.eigenvectors().col(column), vector = root.back * eigenvector,
-                          dual = root.forth * eigenvector;
+    const Eigen::VectorXd eigenvector = solver.eigenvectors().col(column), vector = root.inverse_sqrt * eigenvector,
+                          dual = root.sqrt * eigenvector;
     Eigen::Index largest = 0;
     for (Eigen::Index k = 1; k < Eigen::Index(n); ++k)
       if (std::abs(vector(k)) > std::abs(vector(largest))) largest = k;

@@ -55,7 +55,7 @@ bool is_transcendental(std::string_view f) {
                     "pow", "exp", "log", "exp2", "log2", "inversesqrt"});
 }
 
-bool is_written_out(std::string_view f) {
+bool has_exact_version(std::string_view f) {
   return one_of(f, {"dot", "length", "normalize", "cross", "reflect", "mix", "fract", "mod"});
 }
 
@@ -154,8 +154,8 @@ std::string literal(const Expression& e, const Place&) {
   return ordinary && (exact || (one_rounding && significant_digits(e.text) >= 9)) ? "" : e.text;
 }
 
-std::string written_out_function(const Expression& e, const Place&) {
-  if (e.kind != Kind::builtin || !is_written_out(e.text)) return "";
+std::string function_with_exact_version(const Expression& e, const Place&) {
+  if (e.kind != Kind::builtin || !has_exact_version(e.text)) return "";
   const bool selects = e.text == "mix" && e.operands.size() == 3 && e.operands[2]->type.base == Base::boolean;
   return selects ? "" : e.text;
 }
@@ -181,7 +181,7 @@ std::string filtered(const Expression& e, const Place&) {
 
 std::string other_builtin(const Expression& e, const Place&) {
   if (e.kind != Kind::builtin || e.text == "fma" || is_exact_builtin(e.text) || is_transcendental(e.text) ||
-      is_written_out(e.text) || is_filter(e.text))
+      has_exact_version(e.text) || is_filter(e.text))
     return "";
   return works_on_integers(e) ? "" : e.text;
 }
@@ -212,7 +212,7 @@ std::string remainder(const Expression& e, const Place&) {
 
 bool has_arithmetic(const Expression& e) {
   if (is_arithmetic(e) && !e.constant) return true;
-  if (e.kind == Kind::call || e.kind == Kind::index || e.kind == Kind::select) return false;
+  if (e.kind == Kind::call || e.kind == Kind::index) return false;
   return std::any_of(e.operands.begin(), e.operands.end(), [](const ExpressionPtr& o) { return has_arithmetic(*o); });
 }
 
@@ -237,9 +237,8 @@ constexpr Row kTable[] = {
       "`precise` does not reach arithmetic inside a comparison: store it in a `precise` variable, compare that"},
      compared},
     {{"arm",
-      "drivers may lose `precise` between the operations within an arm of ?: (NVIDIA's does): store the arm's value in "
-      "a "
-      "`precise` variable first"},
+      "drivers may lose `precise` between the operations within an arm of ?: (NVIDIA's does): "
+      "store the arm's value in a `precise` variable first"},
      arm},
     {{"constant",
       "arithmetic between constants is folded in double here and in float there: "
@@ -254,7 +253,7 @@ constexpr Row kTable[] = {
       "write -x, or leave the operation out"},
      zero_operand},
     {{"function", "the order of its operations is the driver's choice: include exact/NAME.glsl and call exact_NAME"},
-     written_out_function},
+     function_with_exact_version},
     {{"transcendental",
       "drivers approximate it differently: include the function's file from exact/ and call exact_NAME "
       "(inversesqrt: 1.0 / sqrt(x))"},

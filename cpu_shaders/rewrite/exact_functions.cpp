@@ -60,13 +60,13 @@ constexpr Entry kFunctions[] = {
 std::string_view operator_name(std::string_view op) {
   switch (op[0]) {
     case '+':
-      return "exact_add";
+      return "add";
     case '-':
-      return "exact_subtract";
+      return "subtract";
     case '*':
-      return "exact_multiply";
+      return "multiply";
     default:
-      return "exact_divide";
+      return "divide";
   }
 }
 
@@ -139,12 +139,13 @@ std::string ExactFunctions::written_out(const std::string& name, const std::vect
   return name;
 }
 
+bool ExactFunctions::is_written_out(std::string_view builtin) {
+  return builtin == "sqrt" || builtin == "min" || builtin == "max" || builtin == "clamp";
+}
+
 std::string ExactFunctions::function(std::string_view builtin, const std::vector<GlslType>& arguments) {
-  if (written_out_) {
-    for (const std::string_view known : {"sqrt", "min", "max", "clamp"})
-      if (builtin == known) return written_out("written_" + std::string(builtin), arguments);
-    return "";
-  }
+  if (written_out_)
+    return is_written_out(builtin) ? written_out("written_" + std::string(builtin), arguments) : std::string();
   if (builtin == "inversesqrt" || builtin == "radians" || builtin == "degrees" || builtin == "fma" ||
       builtin.substr(0, 6) == "fwidth") {
     files_.insert("operators");
@@ -181,19 +182,20 @@ std::string ExactFunctions::function(std::string_view builtin, const std::vector
 }
 
 std::string ExactFunctions::arithmetic(std::string_view op, const GlslType& left, const GlslType& right) {
-  if (written_out_) return written_out("written_divide", {left, right});
+  if (written_out_) return written_out("written_" + std::string(operator_name(op)), {left, right});
   files_.insert("operators");
   if (left.columns > 1 || right.columns > 1) files_.insert("matrix_operators");
-  return std::string(operator_name(op));
+  return "exact_" + std::string(operator_name(op));
 }
 
 std::string ExactFunctions::assignment(std::string_view op, const GlslType& target, const GlslType& value,
                                        bool postfix) {
   const std::string name = arithmetic(op, target, value) + (postfix ? "_behind" : "_to");
   const std::string type = type_text(target);
-  generated_.insert(type + " " + name + "(inout " + type + " target, " + type_text(value) + " value) { " + type +
-                    " old = target; target = " + arithmetic(op, target, value) + "(old, value); return " +
-                    (postfix ? "old" : "target") + "; }");
+  (target.columns > 1 ? generated_matrices_ : generated_)
+      .insert(type + " " + name + "(inout " + type + " target, " + type_text(value) + " value) { " + type +
+              " old = target; target = " + arithmetic(op, target, value) + "(old, value); return " +
+              (postfix ? "old" : "target") + "; }");
   return name;
 }
 

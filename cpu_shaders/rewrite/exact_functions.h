@@ -15,12 +15,14 @@ namespace twinshade::lint_detail {
 // The functions that one rewritten shader needs.
 class ExactFunctions {
  public:
-  // written_out: / sqrt min max clamp alone, as shaders/exact/written_out.glsl has them.
+  // written_out: / sqrt min max clamp as shaders/exact/written_out.glsl has them, and no other built-in functions.
   explicit ExactFunctions(bool written_out = false) : written_out_(written_out) {}
+
+  static bool is_written_out(std::string_view builtin);
 
   // Name to call instead of a built-in function; empty where there is none. Argument types: after conversion to float.
   std::string function(std::string_view builtin, const std::vector<GlslType>& arguments);
-  // Name to call instead of an operator: "+" gives exact_add; written out, "/" gives written_divide.
+  // Name to call instead of an operator: "+" gives exact_add; written out, written_add.
   std::string arithmetic(std::string_view op, const GlslType& left, const GlslType& right);
   // x op= y as a call whose first argument is inout, where x may not be written twice. postfix: gives the old value.
   std::string assignment(std::string_view op, const GlslType& target, const GlslType& value, bool postfix);

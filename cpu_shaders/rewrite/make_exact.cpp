@@ -82,7 +82,23 @@ class MakeExact : public Listener {
     }
     return false;
   }
-  bool in_scope(const std::string& op) const { return scope_ != ExactScope::written_out || op[0] == '/'; }
+  // Arguments of functions are out of `precise`'s reach: where an operator becomes a call, so do those in its operands.
+  bool operator_in_scope(const std::string& op) const {
+    return scope_ != ExactScope::written_out || op[0] == '/' || in_argument_ > 0;
+  }
+
+  // While the operands of what becomes a call are rewritten.
+  class Argument {
+   public:
+    Argument(int& depth, bool is_one) : depth_(depth), is_one_(is_one) { depth_ += is_one ? 1 : 0; }
+    ~Argument() { depth_ -= is_one_ ? 1 : 0; }
+    Argument(const Argument&) = delete;
+    Argument& operator=(const Argument&) = delete;
+
+   private:
+    int& depth_;
+    bool is_one_;
+  };
 
   // Each returns whether the expression, as rewritten, is no longer a constant one.
 
@@ -148,10 +164,19 @@ class MakeExact : public Listener {
   }
 
   bool binary(const Expression& e) {
-    bool varies = operands(e, is_comparison(e.text));
     const Expression &left = *e.operands[0], &right = *e.operands[1];
-    if (!is_arithmetic(e.text) || !is_float(e.type) || !in_scope(e) || !in_scope(e.text)) return varies;
-    if (type_text(as_float(left.type)).empty() || type_text(as_float(right.type)).empty()) return varies;
+    // A product of matrices is none of their components: it is outside the dialect, and left alone.
+    const bool whole_matrices =
+        scope_ == ExactScope::written_out && e.text == "*" && (left.type.is_matrix() || right.type.is_matrix());
+    const bool becomes_call = !whole_matrices && is_arithmetic(e.text) && is_float(e.type) && in_scope(e) &&
+                              operator_in_scope(e.text) && !type_text(as_float(left.type)).empty() &&
+                              !type_text(as_float(right.type)).empty();
+    bool varies;
+    {
+      const Argument argument(in_argument_, becomes_call);
+      varies = operands(e, is_comparison(e.text));
+    }
+    if (!becomes_call) return varies;
     to_float(left);
     to_float(right);
     edits_.before(e.first, functions_.arithmetic(e.text, as_float(left.type), as_float(right.type)) + "(");
@@ -164,9 +189,13 @@ class MakeExact : public Listener {
 
   // = += ++ ... where the target is a float.
   bool assign(const Expression& e, Place place) {
-    operands(e);
+    const bool computes = is_float(e.type) && scope_ != ExactScope::constants && operator_in_scope(e.text);
+    {
+      const Argument argument(in_argument_, computes);
+      operands(e);
+    }
     const Expression& target = *e.operands[0];
-    if (!is_float(e.type) || scope_ == ExactScope::constants || !in_scope(e.text)) return true;
+    if (!computes) return true;
     const bool steps = e.text == "++" || e.text == "--";
     GlslType value_type;
     std::string value;
@@ -206,7 +235,11 @@ class MakeExact : public Listener {
   }
 
   bool builtin(const Expression& e) {
-    const bool varies = operands(e);
+    bool varies;
+    {
+      const Argument argument(in_argument_, in_scope(e) && ExactFunctions::is_written_out(e.text));
+      varies = operands(e);
+    }
     const bool classifies = e.text == "isnan" || e.text == "isinf";
     if ((!is_float(e.type) && !classifies) || !in_scope(e)) return varies;
     if (e.text == "mix" && e.operands.size() == 3 && e.operands[2]->type.base == Base::boolean) return varies;
@@ -253,6 +286,7 @@ class MakeExact : public Listener {
   }
 
   const ExactScope scope_;
+  int in_argument_ = 0;
   std::set<std::string> made_variable_;
   std::map<std::size_t, std::set<std::string>> constants_;  // by their `const`
 };
@@ -289,7 +323,7 @@ ExactShader make_exact(const ShaderSource& source, ExactScope scope) {
   try {
     result.left = lint(result.source);
   } catch (const UserError& error) {
-    throw UserError(std::string(error.what()) + " (in the shader as --make-exact rewrites it)");
+    throw UserError(std::string(error.what()) + " (in the shader as rewritten for exactness)");
   }
   return result;
 }

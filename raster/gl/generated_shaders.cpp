@@ -16,11 +16,12 @@ std::string attribute_functions_text(bool written_out) {
   if (written_out) {
     source.text += "\nvoid main() {}\n";  // make_exact takes whole shaders
     source = make_exact(source, ExactScope::written_out).source;
+    source.text.resize(source.text.rfind("void"));
   }
   const TokenText tokens = tokenize(source, preprocess(source));
   std::string functions;  // without its #line: in a driver's log these are generated lines
   for (const Token& token : tokens.tokens) {
-    bool own = token.text == "ExactBarycentrics" || token.text == "main";
+    bool own = token.text == "ExactBarycentrics";
     for (const char* prefix : {"exact_", "written_", "WRITTEN_"}) own = own || token.text.rfind(prefix, 0) == 0;
     functions += (token.before.empty() ? "" : " ") + std::string(own ? kPrefix : "") + token.text;
   }
@@ -29,8 +30,12 @@ std::string attribute_functions_text(bool written_out) {
 
 // shaders/exact/attributes.glsl under names that a user's shader cannot have.
 const std::string& attribute_functions(bool written_out) {
-  static const std::string as_they_are = attribute_functions_text(false), by_integers = attribute_functions_text(true);
-  return written_out ? by_integers : as_they_are;
+  if (written_out) {
+    static const std::string text = attribute_functions_text(true);
+    return text;
+  }
+  static const std::string text = attribute_functions_text(false);
+  return text;
 }
 
 std::string component(const InputLeaf& leaf, std::uint32_t c) {

@@ -73,9 +73,8 @@ class GlRenderer final : public Renderer {
     return exchange(bundle, source, request, &cpu_frame, names);
   }
 
-  std::vector<Buffer> dispatch(const Bundle& bundle, const ShaderSource& author,
+  std::vector<Buffer> dispatch(const Bundle& bundle, const ShaderSource& source,
                                const std::array<std::uint32_t, 3>& groups, double time_limit_seconds) {
-    const ShaderSource source = session_.writes_out() ? make_exact(author, ExactScope::written_out).source : author;
     DrawRequest request;
     const std::string version = "#version " + std::to_string(source.version) + (source.es ? " es\n" : "\n");
     request.frame.compute = gl_text(source, version, "");

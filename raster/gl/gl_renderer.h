@@ -15,7 +15,7 @@ struct GlEnvironment {
   int threads = 0;       // LP_NUM_THREADS; 0: as thread_count()
   bool host_fma = true;  // false: GALLIUM_OVERRIDE_CPU_CAPS=sse4.1
   // / sqrt min max clamp as shaders/exact/written_out.glsl has them, not as the driver does: for graphics cards, whose
-  // own are not exact. Not with native attributes.
+  // own are not exact. Not with native attributes, nor in compute shaders, which keep denormals.
   bool written_out = false;
   std::vector<std::pair<std::string, std::string>> extra;  // further variables for the worker
 };

@@ -1,5 +1,5 @@
-// / and sqrt of the exact dialect in integer arithmetic, min, max and clamp in comparisons: for graphics cards, whose own
-// may be some ULP off (GLSL 4.60, section 4.7.1: division 2.5 ULP) and pick either zero. Operands and results below 2^-126
+// / sqrt min max clamp of the exact dialect in integer arithmetic: for graphics cards, whose own may be some ULP off (GLSL
+// 4.60, section 4.7.1: division 2.5 ULP) and pick either zero. Operands and results below 2^-126
 // in magnitude count as 0, as everywhere in fragment shaders (docs/exact-dialect.md).
 //
 // Rounding to nearest even; a NaN operand comes back quiet, the first one's; what has no value is 0xffc00000, x86's NaN.
@@ -72,7 +72,33 @@ float written_sqrt(float a) {
   return uintBitsToFloat((exponent << 23) + written_round(root, remainder != 0u) - WRITTEN_LEADING_BIT);
 }
 
+uint written_operand(float a) {
+  uint bits = floatBitsToUint(a);
+  return written_exponent(bits) == 0u ? bits & 0x80000000u : bits;
+}
+
+// x < y of numbers. Not by floats: drivers take a comparison and a selection for their own min.
+bool written_less(uint x, uint y) {
+  int left = int(x), right = int(y);
+  left = left < 0 ? left ^ 0x7fffffff : left;
+  right = right < 0 ? right ^ 0x7fffffff : right;
+  return ((x | y) & 0x7fffffffu) != 0u && left < right;
+}
+
 // Of 0 and -0 the second, of a number and NaN the number.
-float written_min(float a, float b) { return a < b || written_isnan(floatBitsToUint(b)) ? a : b; }
-float written_max(float a, float b) { return a > b || written_isnan(floatBitsToUint(b)) ? a : b; }
+float written_min(float a, float b) {
+  uint x = written_operand(a), y = written_operand(b);
+  if (written_isnan(y)) return a;
+  return uintBitsToFloat(!written_isnan(x) && written_less(x, y) ? x : y);
+}
+float written_max(float a, float b) {
+  uint x = written_operand(a), y = written_operand(b);
+  if (written_isnan(y)) return a;
+  return uintBitsToFloat(!written_isnan(x) && written_less(y, x) ? x : y);
+}
 float written_clamp(float x, float low, float high) { return written_min(written_max(x, low), high); }
+
+// What stands in arguments of the functions above, where `precise` does not reach.
+float written_add(float a, float b) { precise float sum = a + b; return sum; }
+float written_subtract(float a, float b) { precise float difference = a - b; return difference; }
+float written_multiply(float a, float b) { precise float product = a * b; return product; }

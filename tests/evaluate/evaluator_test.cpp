@@ -161,6 +161,30 @@ TEST_CASE("of a denormal and another number min and max give zero where it is ch
   CHECK(value_at(rows.outputs[0], 2, 1) == 0);
 }
 
+TEST_CASE("division written out in integers gives the processor's bits, denormals and special values included") {
+  setenv("TWINSHADE_GPU", "0", 1);  // Mesa's processor where there is no card
+  EvaluatorOptions options;
+  options.written_out = true;
+  Evaluator evaluator(options);
+  const ShaderSource shader = fragment(
+      "in float x; in float y; layout(location = 0) out vec4 r; layout(location = 1) out vec2 s;\nvoid main() {\n"
+      "  precise vec2 quotient = vec2(x, y) / y; precise float root = sqrt(x * x + y), last = (x * y + x) / (x - y);\n"
+      "  r = vec4(quotient, root, last); s = vec2(min(x, y), clamp(x, y, 2.0));\n}\n");
+  ValueTable table{0, {}, {}, {}, {}};
+  std::vector<float> x, y;
+  const float values[] = {0, -0.0F, 1, -3, 0.1F, 7e37F, 3e-38F, 0x1p-130F, INFINITY, -INFINITY, NAN, 123.456F};
+  for (const float a : values)
+    for (const float b : values) x.push_back(a), y.push_back(b);
+  table.rows = x.size();
+  table.inputs = {floats("x", "float", x), floats("y", "float", y)};
+  const std::vector<std::string> cpu =
+      test::listing(evaluator.run(shader, table, {Backend::cpu, Number::lanes4, Isa::baseline}));
+  const std::vector<std::string> card = test::listing(evaluator.run(shader, table, {Backend::gpu, {}, {}}));
+  unsetenv("TWINSHADE_GPU");
+  REQUIRE(cpu.size() == card.size());
+  for (std::size_t i = 0; i < cpu.size(); ++i) CHECK(cpu[i] == card[i]);
+}
+
 TEST_CASE("in double the outputs keep every digit") {
   Evaluator evaluator;
   const EvaluatedRows rows = evaluator.run(

@@ -84,13 +84,16 @@ TEST_CASE("division and square root written out in integers round as IEEE 754 sa
 TEST_CASE("min, max and clamp written out choose the second of two zeros and the number beside NaN") {
   const RowShader shader("written_out", kShader);
   const float nan = std::nanf("");
-  const std::vector<float> x{0.0F, -0.0F, nan, 2.0F, 3.0F, -5.0F}, y{-0.0F, 0.0F, 2.0F, nan, 1.0F, 4.0F};
+  const float tiny = 0x1p-130F;  // counts as 0
+  const std::vector<float> x{0.0F, -0.0F, nan, 2.0F, 3.0F, -5.0F, tiny, 2.0F, -tiny},
+      y{-0.0F, 0.0F, 2.0F, nan, 1.0F, 4.0F, 2.0F, -tiny, -1.0F};
   std::vector<float> inputs = x;
   inputs.insert(inputs.end(), y.begin(), y.end());
   const std::size_t n = x.size();
   const std::vector<float> r = shader.run(inputs, n);
-  const std::vector<float> least{-0.0F, 0.0F, 2.0F, 2.0F, 1.0F, -5.0F}, most{-0.0F, 0.0F, 2.0F, 2.0F, 3.0F, 4.0F},
-      between{-0.0F, 0.0F, -1.0F, 2.0F, 1.0F, -1.0F};
+  const std::vector<float> least{-0.0F, 0.0F, 2.0F, 2.0F, 1.0F, -5.0F, 0.0F, -0.0F, -1.0F},
+      most{-0.0F, 0.0F, 2.0F, 2.0F, 3.0F, 4.0F, 2.0F, 2.0F, -0.0F},
+      between{-0.0F, 0.0F, -1.0F, 2.0F, 1.0F, -1.0F, 0.0F, -0.0F, -1.0F};
   for (std::size_t i = 0; i < n; ++i) {
     CHECK(bits_of(r[2 * n + i]) == bits_of(least[i]));
     CHECK(bits_of(r[3 * n + i]) == bits_of(most[i]));

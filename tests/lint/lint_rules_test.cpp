@@ -99,6 +99,7 @@ const std::vector<Samples>& samples() {
       {"arm",
        {"precise float x = k > 0 ? a.x * b.x + a.y : 0.0;", "precise float x = k > 0 ? a.x : (a.x + b.x) - a.y;",
         "precise vec3 v = vec3(k > 0 ? floor(a.x * 8.0) * 0.125 : 0.0);",
+        "precise float x = k > 0 ? (k > 1 ? a.x * b.x : b.x) + a.y : 0.0;",
         "precise float x; x = k > 0 ? a.x : k > 1 ? b.x : (a.x - b.x) * 0.5;"},
        {"precise float x = k > 0 ? a.x * b.x : a.x + b.x;", "precise float x = (k > 0 ? a.x * b.x : b.x) + a.x;",
         "precise float y = a.x * b.x + a.y; precise float x = k > 0 ? y : 0.0;", "int i = k > 0 ? k * 2 + 1 : 0;",

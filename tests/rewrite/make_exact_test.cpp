@@ -1,6 +1,7 @@
 // Shaders as make_exact rewrites them: nothing is left outside the dialect, or it is named; lines stay where they were.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -84,6 +85,20 @@ TEST_CASE("written out are division, roots and limits alone, by component, withi
   CHECK(body_of("vec3 v = max(a, 0.0); float x = clamp(a.x, 0.0, 1.0) + min(k, 3);", scope) ==
         "vec3v=written_max(a,0.0);floatx=written_clamp(a.x,0.0,1.0)+min(k,3);");
   CHECK(body_of("mat3 x = m / a.x;", scope) == "mat3x=written_divide(m,a.x);");
+  // Out of the reach of `precise` otherwise
+  CHECK(body_of("precise float x = (a.x * b.x + a.y) / b.y;", scope) ==
+        "precisefloatx=written_divide((written_add(written_multiply(a.x,b.x),a.y)),b.y);");
+  CHECK(body_of("precise float x = a.x; x /= a.y * b.y - 1.0;", scope) ==
+        "precisefloatx=a.x;x=written_divide(x,written_subtract(written_multiply(a.y,b.y),1.0));");
+  CHECK(body_of("precise float x = sqrt(a.x * a.x) + a.y * b.y;", scope) ==
+        "precisefloatx=written_sqrt(written_multiply(a.x,a.x))+a.y*b.y;");
+  const auto unprotected = [&](const char* body) {
+    const std::vector<LintFinding> left = make_exact(shader_of(body), scope).left;
+    return std::count_if(left.begin(), left.end(), [](const LintFinding& f) { return f.rule == "precise"; });
+  };
+  for (const char* body : {"precise float x = (a.x * b.x + a.y) / b.y; color = vec4(x);",
+                           "mat3 many[2]; int i = 0; many[i++] = m; many[i++] /= 2.0;"})
+    CHECK(unprotected(body) == unprotected(""));
   const ShaderSource nested = resolve_shader(
       "sample", "#include \"exact/normalize.glsl\"\nin vec3 a; out vec3 r;\nvoid main() { r = exact_normalize(a); }\n",
       "sample.frag");

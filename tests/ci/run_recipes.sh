@@ -1,0 +1,78 @@
+#!/usr/bin/env bash
+# Runs the steps of docs/ci/ as the services would, in a project of two shaders: once as they are, once with a wrong
+# factor in one. Only paths are changed (nothing is written outside WORK), and packages are not installed.
+#   run_recipes.sh SOURCE WORK
+set -euo pipefail
+source=$(realpath "$1") work=$2
+here=$source/tests/ci
+rm -rf "$work"
+mkdir -p "$work"
+work=$(realpath "$work")
+
+fail() { echo "FAILED: $*" >&2; exit 1; }
+expect() {  # wanted exit code, name of the run, its command
+  local wanted=$1 name=$2 code=0
+  shift 2
+  "$@" >"$work/$name.log" 2>&1 || code=$?
+  [ $code = "$wanted" ] || { tail -30 "$work/$name.log" >&2; fail "$name: exit code $code instead of $wanted"; }
+}
+
+# What the services clone: this commit as a branch.
+git clone --quiet --bare "$source" "$work/twinshade.git"
+git -C "$work/twinshade.git" update-ref refs/heads/recipe "$(git -C "$source" rev-parse HEAD)"
+export TWINSHADE_REPOSITORY=$work/twinshade.git TWINSHADE_REF=recipe
+
+# The commands of `before_script` and `script`: "- command" and "- |" with a block.
+gitlab_commands() {
+  awk '/^  (before_script|script):/ { on = 1; next } /^  [a-z]/ { on = 0 } !on || /^ *#/ { next }
+       /^    - \|$/ { next } { sub(/^    - /, ""); print }' "$source/docs/ci/gitlab-ci.yml"
+}
+# The commands of one named step.
+github_commands() {
+  awk -v step="$1" '/^      - / { on = $0 == "      - name: " step; block = 0 } !on { next }
+       block { print } /^        run: \|$/ { block = 1; next } !block && sub(/^        run: /, "")' \
+    "$source/docs/ci/github-actions.yml" |
+    sed -e 's/\${{ vars\.TWINSHADE_REF }}/'"$TWINSHADE_REF"'/; s#\${{ vars\.TWINSHADE_REPOSITORY }}#'"$TWINSHADE_REPOSITORY"'#'
+}
+here_paths() { sed -e '/apt-get/d; /packages\.sh/d' -e "s#/tmp/twinshade#$work/clone#g; s#/opt/twinshade#$work/installed#g"; }
+
+new_project() {
+  rm -rf "$1" "$work/clone"
+  mkdir -p "$1"
+  cp -r "$here/shaders" "$1/shaders"
+}
+break_project() { sed -i 's/0\.5/0.25/' "$1/shaders/tests/halve.frag"; }
+
+echo "GitLab"
+export CI_PROJECT_DIR=$work/gitlab TWINSHADE_CACHE=$work/gitlab/.twinshade-cache
+new_project "$work/gitlab"
+{ echo "set -eo pipefail; cd '$CI_PROJECT_DIR'"; gitlab_commands | here_paths; } >"$work/gitlab.sh"
+expect 0 gitlab bash "$work/gitlab.sh"
+for file in check.xml check.json eval.xml eval.json; do [ -s "$work/gitlab/$file" ] || fail "GitLab: no $file"; done
+grep -q 'failures="0"' "$work/gitlab/eval.xml" || fail "GitLab: eval.xml counts failures"
+break_project "$work/gitlab"
+rm -rf "$work/clone"
+expect 1 gitlab-broken bash "$work/gitlab.sh"
+grep -q '<failure' "$work/gitlab/eval.xml" || fail "GitLab: eval.xml names no failure"
+
+echo "GitHub"
+export GITHUB_PATH=$work/github_path TWINSHADE_CACHE=$work/github/.twinshade-cache
+new_project "$work/github"
+: >"$GITHUB_PATH"
+cp -r "$work/gitlab/.twinshade" "$work/installed"  # as its cache would bring it
+step() {
+  {
+    echo "set -eo pipefail; cd '$work/github'; PATH=\$(tail -1 '$GITHUB_PATH'):\$PATH"
+    github_commands "$1" | here_paths
+  } >"$work/step.sh"
+}
+step "Install Twinshade"
+expect 0 github-install bash "$work/step.sh"
+step "Check"
+expect 0 github-check bash "$work/step.sh"
+step "Test"
+expect 0 github-test bash "$work/step.sh"
+break_project "$work/github"
+expect 1 github-broken bash "$work/step.sh"
+grep -q '^::error file=shaders/tests/halve' "$work/github-broken.log" || fail "GitHub: no annotation"
+echo "both recipes pass and fail as they should"

@@ -68,7 +68,7 @@ TEST_CASE("unknown names are refused, with the nearest known ones") {
   check_refused({"render", "quad", "--env", "skyy"}, {"skyy", "sky"});
   check_refused({"render", "courtyrd"}, {"courtyrd", "courtyard"});
   check_refused({"compare", "quad", "--on", "cpu,elg"}, {"elg", "egl"});
-  check_refused({"render", "quad", "--on", "gpu"}, {"gpu", "cpu"});
+  check_refused({"render", "quad", "--on", "vulkan"}, {"vulkan", "cpu"});
   check_refused({"rendr"}, {"rendr", "render"});
   check_refused({"list", "technique"}, {"technique", "techniques"});
   check_refused({"translate", "h7"}, {"h7", "h4"});

@@ -38,7 +38,7 @@ TEST_CASE("list names what there is") {
     CHECK(names("scenes").find(name) != std::string::npos);
   for (const char* name : {" sky ", " studio ", " window ", " constant "})
     CHECK(names("environments").find(name) != std::string::npos);
-  CHECK(names("backends") == " cpu egl osmesa softpipe ");
+  CHECK(names("backends") == " cpu egl osmesa softpipe gpu ");
   for (const auto& scene : json["scenes"])
     if (scene["name"] == "courtyard") CHECK(scene["triangles"].get<int>() >= 20000);
 }

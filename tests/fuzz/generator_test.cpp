@@ -38,9 +38,11 @@ TEST_CASE("generated programs are translated, stay in the exact dialect and end"
     const fuzz::GeneratedProgram program = fuzz::generate_program(seed);
     texts.insert(program.text);
     const ShaderSource source = resolve_shader("program", program.text, "program.frag");
-    // Divisors and components chosen while running are in range by construction, which the lint cannot see.
+    // Divisors and components chosen while running are in range by construction, which the lint cannot see. Arithmetic
+    // within arms of ?: is a matter of graphics cards alone, and here the point: lanes take both arms.
     for (const LintFinding& finding : lint(source))
-      CHECK_MESSAGE((finding.rule == "division" || finding.rule == "vector-store"), describe(finding));
+      CHECK_MESSAGE((finding.rule == "division" || finding.rule == "vector-store" || finding.rule == "arm"),
+                    describe(finding));
     CHECK_NOTHROW(translate(source));
     Interpreter interpreter(compile_glsl(source));
     std::map<std::string, Words> values;

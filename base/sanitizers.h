@@ -1,33 +1,28 @@
 // Which sanitizer this build is compiled for.
 #pragma once
 
+// g++ defines __SANITIZE_...__, clang++ has __has_feature.
+#if defined(__has_feature)
+#define TWINSHADE_HAS_FEATURE(name) __has_feature(name)
+#else
+#define TWINSHADE_HAS_FEATURE(name) 0
+#endif
+
 namespace twinshade {
 
-#if defined(__SANITIZE_THREAD__)  // g++
-inline constexpr bool kThreadSanitizer = true;
-#elif defined(__has_feature)
-#if __has_feature(thread_sanitizer)  // clang++
+#if defined(__SANITIZE_THREAD__) || TWINSHADE_HAS_FEATURE(thread_sanitizer)
 inline constexpr bool kThreadSanitizer = true;
 #else
 inline constexpr bool kThreadSanitizer = false;
 #endif
-#else
-inline constexpr bool kThreadSanitizer = false;
-#endif
 
-#if defined(__SANITIZE_ADDRESS__)
-inline constexpr bool kAddressSanitizer = true;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-inline constexpr bool kAddressSanitizer = true;
+// Address and thread sanitizers map terabytes of addresses, so that a limit of address space means nothing.
+#if defined(__SANITIZE_ADDRESS__) || TWINSHADE_HAS_FEATURE(address_sanitizer)
+inline constexpr bool kShadowMemory = true;
 #else
-inline constexpr bool kAddressSanitizer = false;
+inline constexpr bool kShadowMemory = kThreadSanitizer;
 #endif
-#else
-inline constexpr bool kAddressSanitizer = false;
-#endif
-
-// Both keep shadow memory: it maps terabytes of addresses, so that a limit of address space means nothing.
-inline constexpr bool kShadowMemory = kAddressSanitizer || kThreadSanitizer;
 
 }  // namespace twinshade
+
+#undef TWINSHADE_HAS_FEATURE

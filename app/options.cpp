@@ -184,8 +184,9 @@ void add_subject_options(CLI::App& command, SubjectOptions& options) {
              given("--order",
                    [&](const std::string& text) { options.visibility.order = parse_between("--order", text, 2, 6); }));
   add_parsed(
-      command, "--pca-metric", "visibility|irradiance",
-      "what components keep most of: visibility, for any light, or irradiance under this one (default: visibility)",
+      command, "--pca-metric", "surface|visibility|irradiance",
+      "what components keep most of: what surfaces show of any light, visibility all around, or irradiance under this "
+      "light (default: surface)",
       given("--pca-metric", [&](const std::string& text) { options.visibility.metric = find_pca_metric(text); }));
   add_parsed(command, "--visibility-rays", "N", "directions over the sphere per texel or vertex (default: 512)",
              given("--visibility-rays", [&](const std::string& text) {

@@ -81,7 +81,7 @@ std::vector<LitTechnique> coefficients_read(const std::string& text, const Scene
 bool has_coefficients(const Bundle& bundle, const TechniqueInfo& technique, CoefficientStorage storage) {
   const std::string name(technique.name);
   if (stores_visibility(technique)) {
-    const std::string weights = visibility_name(technique.weights);
+    const std::string weights = visibility_name(technique);
     const std::uint32_t quads = std::uint32_t(technique.count + 3) / 4;
     if (storage == CoefficientStorage::vertex)
       return bundle.find_attribute(fmt::format("{}[{}]", weights, quads - 1)) != nullptr;

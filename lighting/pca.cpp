@@ -45,6 +45,10 @@ Root root_of(std::span<const double> metric, std::size_t n) {
 
 }  // namespace
 
+std::size_t PrincipalComponents::rank() const {
+  return std::size_t(std::count_if(eigenvalues.begin(), eigenvalues.end(), [](double value) { return value > 0; }));
+}
+
 double PrincipalComponents::tail(std::size_t components) const {
   double sum = 0;
   for (std::size_t i = dimension; i > components; --i) sum += eigenvalues[i - 1];
@@ -120,16 +124,25 @@ PrincipalComponents principal_components(std::span<const float> values, std::siz
 std::vector<float> PrincipalComponents::project(std::span<const float> values, std::size_t stride,
                                                 std::size_t components) const {
   TWINSHADE_CHECK_LE(components, count());
-  const std::size_t cells = stride == 0 ? 0 : values.size() / stride;
+  return project_onto(
+      mean, components, [&](std::size_t) { return duals.data(); }, values, stride);
+}
+
+std::vector<float> project_onto(std::span<const double> mean, std::size_t components,
+                                const std::function<const double*(std::size_t cell)>& duals_of,
+                                std::span<const float> values, std::size_t stride) {
+  const std::size_t dimension = mean.size(), cells = stride == 0 ? 0 : values.size() / stride;
   std::vector<float> weights(cells * components);
   parallel_for((cells + kBlock - 1) / kBlock, [&](std::size_t block, int) {
-    for (std::size_t cell = block * kBlock; cell < std::min(cells, (block + 1) * kBlock); ++cell)
+    for (std::size_t cell = block * kBlock; cell < std::min(cells, (block + 1) * kBlock); ++cell) {
+      const double* duals = duals_of(cell);
       for (std::size_t m = 0; m < components; ++m) {
         double sum = 0;
         for (std::size_t k = 0; k < dimension; ++k)
           sum += duals[m * dimension + k] * (values[cell * stride + k] - mean[k]);
         weights[cell * components + m] = float(sum);
       }
+    }
   });
   return weights;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct PrincipalComponents {
   std::vector<double> eigenvalues;  // [dimension]: of the weighted covariance, none below zero, descending
 
   std::size_t count() const { return dimension == 0 ? 0 : vectors.size() / dimension; }
+  std::size_t rank() const;  // of the data about their mean
   // Mean squared error (weighted; the square of the metric's distance) of using the first `components`.
   double tail(std::size_t components) const;
   // weights[cell * components + m] of values[cell * stride + k], for the first `components` vectors.
@@ -33,5 +35,11 @@ struct PrincipalComponents {
 PrincipalComponents principal_components(std::span<const float> values, std::size_t stride, std::size_t dimension,
                                          std::span<const float> cell_weights, std::size_t components,
                                          std::span<const double> metric = {});
+
+// weights[cell * components + m] = dual_m . (value - mean), the duals [m * dimension + k] of each cell from
+// duals_of(cell).
+std::vector<float> project_onto(std::span<const double> mean, std::size_t components,
+                                const std::function<const double*(std::size_t cell)>& duals_of,
+                                std::span<const float> values, std::size_t stride);
 
 }  // namespace twinshade

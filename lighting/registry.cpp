@@ -67,14 +67,16 @@ bool reads_sphere_map(const TechniqueInfo& technique) {
   return technique.weights != VisibilityWeights::none && technique.tables != "none";
 }
 
-std::string visibility_name(VisibilityWeights weights) {
-  return weights == VisibilityWeights::sh    ? "visibility_sh"
-         : weights == VisibilityWeights::pca ? "visibility_pca"
-                                             : "visibility_ambient";
+std::string visibility_name(const TechniqueInfo& technique) {
+  return technique.weights == VisibilityWeights::sh    ? "visibility_sh"
+         : technique.weights == VisibilityWeights::pca ? "visibility_pca" + std::to_string(technique.count)
+                                                       : "visibility_ambient";
 }
 
 std::string light_tables_name(const TechniqueInfo& technique, const SphereMapInfo& map) {
-  return "tables_" + std::string(technique.tables) + "_" + std::string(map.name);
+  const bool components = technique.weights == VisibilityWeights::pca;
+  return "tables_" + std::string(technique.tables) + (components ? std::to_string(technique.count) : "") + "_" +
+         std::string(map.name);
 }
 
 namespace {
@@ -94,7 +96,7 @@ Unresolved visibility_text(const TechniqueInfo& technique, CoefficientStorage st
   const bool vertex = storage == CoefficientStorage::vertex, mapped = reads_sphere_map(technique);
   const bool packed = packing == TexturePacking::dx9 && (mapped || !vertex);
   std::string text = vertex ? "#define TWINSHADE_VERTEX_COEFFICIENTS 1\n" : "";
-  text += "#define VISIBILITY " + visibility_name(technique.weights) + "\n";
+  text += "#define VISIBILITY " + visibility_name(technique) + "\n";
   text += "#define VISIBILITY_COUNT " + std::to_string(technique.count) + "\n";
   text += "#define VISIBILITY_MEAN " + std::to_string(int(technique.has_mean)) + "\n";
   text += "#include \"technique/surface_world.glsl\"\n";

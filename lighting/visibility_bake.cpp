@@ -29,7 +29,7 @@ namespace twinshade {
 namespace {
 
 // Raise when the same inputs give another bake.
-constexpr int kBakeVersion = 1;
+constexpr int kBakeVersion = 2;
 constexpr std::size_t kChunk = 64;  // receivers handed to a thread at a time
 constexpr int kGutter = 8;          // texels
 // A receiver that sees out in no more than this part of its rays may be inside something; it is, if more than this part
@@ -82,6 +82,9 @@ class Baker {
     out_.sh.assign(out_.cells() * kVisibilityCount, 0.0f);
     out_.ambient.assign(out_.cells(), 0.0f);
     out_.area.assign(out_.cells(), 0.0f);
+    out_.normal.assign(out_.cells() * 3, 0.0f);
+    for (const Receiver& receiver : receivers_.list)
+      for (int c = 0; c < 3; ++c) out_.normal[std::size_t(receiver.cell) * 3 + std::size_t(c)] = receiver.normal[c];
     known_.assign(out_.cells(), 0);
   }
 
@@ -105,12 +108,13 @@ class Baker {
                               : FillPlan::vertices(known_, receivers_, scene_);
     fill.apply(out_.sh, kVisibilityCount);
     fill.apply(out_.ambient, 1);
+    fill.apply(out_.normal, 3);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     out_.rays_per_second = double(traced) / seconds;
     out_.memory_bytes = sets_.bytes() + receivers_.list.size() * sizeof(Receiver) +
                         receivers_.sites.size() * sizeof(Site) +
                         receivers_.receiver_of_cell.size() * sizeof(std::uint32_t) + known_.size() +
-                        (out_.sh.size() + out_.ambient.size() + out_.area.size()) * sizeof(float);
+                        (out_.sh.size() + out_.ambient.size() + out_.normal.size() + out_.area.size()) * sizeof(float);
     return std::move(out_);
   }
 
@@ -173,16 +177,16 @@ class Baker {
   VisibilityBake out_;
 };
 
-// Layout of a cached bake: magic, storage, width, height (u32 each), sh, ambient, area of all cells as f32, SHA-256 of
-// all before it as 64 hex digits.
+// Layout of a cached bake: magic, storage, width, height (u32 each), sh, ambient, normal, area of all cells as f32,
+// SHA-256 of all before it as 64 hex digits.
 static_assert(std::endian::native == std::endian::little);
-constexpr std::uint32_t kMagic = 0x31564254;  // "TBV1"
-constexpr std::size_t kCellFloats = kVisibilityCount + 2;
+constexpr std::uint32_t kMagic = 0x32564254;  // "TBV2"
+constexpr std::size_t kCellFloats = kVisibilityCount + 5;
 
 std::string serialize(const VisibilityBake& bake) {
   const std::uint32_t header[] = {kMagic, std::uint32_t(bake.storage), bake.width, bake.height};
   std::string bytes(reinterpret_cast<const char*>(header), sizeof header);
-  for (const std::vector<float>* values : {&bake.sh, &bake.ambient, &bake.area})
+  for (const std::vector<float>* values : {&bake.sh, &bake.ambient, &bake.normal, &bake.area})
     bytes.append(reinterpret_cast<const char*>(values->data()), values->size() * sizeof(float));
   return bytes + sha256_hex(bytes);
 }
@@ -206,6 +210,7 @@ bool deserialize(std::string_view bytes, VisibilityBake& bake) {
   };
   take(bake.sh, bake.cells() * kVisibilityCount);
   take(bake.ambient, bake.cells());
+  take(bake.normal, bake.cells() * 3);
   take(bake.area, bake.cells());
   return true;
 }

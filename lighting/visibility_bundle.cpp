@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "base/error.h"
-#include "base/names.h"
 #include "base/portable_math.h"
-#include "lighting/irradiance_metric.h"
 #include "lighting/light_tables.h"
-#include "lighting/pca.h"
 #include "lighting/radiance_basis.h"
 #include "lighting/visibility_textures.h"
 
@@ -45,20 +43,10 @@ class Adder {
   }
 
   void run() {
-    // The principal components serve every count: fewer are the first of more
-    std::size_t most = 0;
-    for (const VisibilityBake& bake : bakes_) most = std::max(most, most_weights(VisibilityWeights::pca, bake.storage));
-    if (most > 0) {
-      std::vector<double> metric;
-      if (options_.metric == PcaMetric::irradiance)
-        metric = irradiance_metric(options_.metric_light.empty() ? radiance_ : options_.metric_light, options_.order);
-      components_ =
-          principal_components(bakes_[0].sh, kVisibilityCount, square(options_.order), bakes_[0].area, most, metric);
-    }
+    components_.emplace(bakes_[0], options_.order, options_.metric,
+                        options_.metric_light.empty() ? radiance_ : std::span<const double>(options_.metric_light));
     for (const VisibilityBake& bake : bakes_)
-      for (const VisibilityWeights weights :
-           {VisibilityWeights::sh, VisibilityWeights::pca, VisibilityWeights::ambient})
-        if (const std::size_t count = most_weights(weights, bake.storage)) add_weights(bake, weights, count);
+      for (const auto& [name, lit] : most_by_name(bake.storage)) add_weights(bake, name, *lit);
     for (const LitTechnique& lit : wanted_) {
       if (reads_sphere_map(*lit.technique))
         for (const SphereMapInfo* map : options_.maps) add_tables(*lit.technique, *map);
@@ -68,30 +56,33 @@ class Adder {
   }
 
  private:
-  std::size_t most_weights(VisibilityWeights weights, CoefficientStorage storage) const {
-    std::size_t most = 0;
-    for (const LitTechnique& lit : wanted_)
-      if (lit.technique->weights == weights && lit.storage == storage)
-        most = std::max(most, std::size_t(lit.technique->count));
+  // What to store: techniques that read one texture or attribute share it, made for the one that reads most of it.
+  std::map<std::string, const TechniqueInfo*> most_by_name(CoefficientStorage storage) const {
+    std::map<std::string, const TechniqueInfo*> most;
+    for (const LitTechnique& lit : wanted_) {
+      if (lit.storage != storage) continue;
+      const auto [found, is_new] = most.try_emplace(visibility_name(*lit.technique), lit.technique);
+      if (lit.technique->count > found->second->count) found->second = lit.technique;
+    }
     return most;
   }
 
   // values[cell * count + i]
-  std::vector<float> weights_of(const VisibilityBake& bake, VisibilityWeights weights, std::size_t count) const {
+  std::vector<float> weights_of(const VisibilityBake& bake, VisibilityWeights weights, std::size_t count) {
     if (weights == VisibilityWeights::ambient) return bake.ambient;
-    if (weights == VisibilityWeights::pca) return components_->project(bake.sh, kVisibilityCount, count);
+    if (weights == VisibilityWeights::pca) return components_->weights(bake, count);
     std::vector<float> values(bake.cells() * count);
     for (std::size_t cell = 0; cell < bake.cells(); ++cell)
       std::copy_n(bake.sh.data() + cell * kVisibilityCount, count, values.data() + cell * count);
     return values;
   }
 
-  void add_weights(const VisibilityBake& bake, VisibilityWeights weights, std::size_t count) {
-    const std::vector<float> exact = weights_of(bake, weights, count);
+  void add_weights(const VisibilityBake& bake, const std::string& name, const TechniqueInfo& technique) {
+    const auto count = std::size_t(technique.count);
+    const std::vector<float> exact = weights_of(bake, technique.weights, count);
     const std::vector<float> values = through_storage({exact.begin(), exact.end()}, int(count), options_.storage);
     const std::size_t cells = bake.cells(), quads = (count + 3) / 4;
     const auto weight = [&](std::size_t cell, std::size_t i) { return i < count ? values[cell * count + i] : 0.0f; };
-    const std::string name = visibility_name(weights);
     if (bake.storage == CoefficientStorage::vertex) {
       for (std::size_t quad = 0; quad < quads; ++quad) {
         Attribute attribute{fmt::format("{}[{}]", name, quad), Scalar::f32, 4, std::vector<float>(cells * 4)};
@@ -103,11 +94,9 @@ class Adder {
     bundle_.textures.push_back(weights_texture(name, bake.width, quads, options_.packing, weight));
   }
 
-  // Rows of light times the components' mean and vectors, as SH of the components' order.
-  std::vector<double> light_times_components() const {
-    std::vector<double> rows = components_->mean;
-    rows.insert(rows.end(), components_->vectors.begin(), components_->vectors.end());
-    return light_times_vectors(radiance_, rows, options_.order);
+  // Light times the mean and the components that a technique reads, as SH of the components' order.
+  std::vector<double> light_times_components(const TechniqueInfo& technique) {
+    return light_times_vectors(radiance_, components_->rows(std::size_t(technique.count)), options_.order);
   }
 
   void add_tables(const TechniqueInfo& technique, const SphereMapInfo& map) {
@@ -117,7 +106,7 @@ class Adder {
     std::vector<double> products;
     if (technique.tables == "pca") {
       order = options_.order;
-      products = light_times_components();
+      products = light_times_components(technique);
     } else if (technique.tables == "preconv") {
       // Light as it is: all is visible
       for (std::size_t c = 0; c < 3; ++c)
@@ -144,7 +133,7 @@ class Adder {
       return;
     }
     if (bundle_.find_uniform("light_components")) return;
-    const std::vector<double> products = light_times_components();
+    const std::vector<double> products = light_times_components(technique);
     const std::size_t n = square(options_.order), rows = std::size_t(technique.count) + 1;
     Uniform light{"light_components", Scalar::f32, 1, 3, std::uint32_t(rows * kAluCosine), {}};
     for (std::size_t row = 0; row < rows; ++row)
@@ -159,23 +148,10 @@ class Adder {
   const std::span<const double> radiance_;
   const VisibilityLighting& options_;
   std::vector<LitTechnique> wanted_;
-  std::optional<PrincipalComponents> components_;
+  std::optional<VisibilityComponents> components_;
 };
 
 }  // namespace
-
-std::string_view pca_metric_name(PcaMetric metric) {
-  return metric == PcaMetric::visibility ? "visibility" : "irradiance";
-}
-
-PcaMetric find_pca_metric(const std::string& name) {
-  std::vector<std::string> names;
-  for (const PcaMetric metric : {PcaMetric::visibility, PcaMetric::irradiance}) {
-    names.emplace_back(pca_metric_name(metric));
-    if (names.back() == name) return metric;
-  }
-  throw UserError(unknown_name_message("metric", name, names));
-}
 
 void add_visibility(Bundle& bundle, const Scene& scene, std::span<const VisibilityBake> bakes,
                     std::span<const double> radiance, std::span<const LitTechnique> wanted,

@@ -12,20 +12,15 @@
 #include "lighting/sphere_maps.h"
 #include "lighting/texel_storage.h"
 #include "lighting/visibility_bake.h"
+#include "lighting/visibility_components.h"
 
 namespace twinshade {
 
-// What principal components of visibility keep most of: visibility itself, for any light to come (NMV section 3.2), or
-// the irradiance that it leaves of one light.
-enum class PcaMetric { visibility, irradiance };
-std::string_view pca_metric_name(PcaMetric metric);
-PcaMetric find_pca_metric(const std::string& name);  // UserError with the nearest names where there is none
-
 struct VisibilityLighting {
-  std::vector<const SphereMapInfo*> maps;  // of the L x H tables: those that shaders will be drawn with
-  int map_width = 32;                      // 1 to 4096
-  int order = 6;                           // of the visibility whose principal components are taken, 2 to 6
-  PcaMetric metric = PcaMetric::visibility;
+  std::vector<const SphereMapInfo*> maps;        // of the L x H tables: those that shaders will be drawn with
+  int map_width = 32;                            // 1 to 4096
+  int order = 6;                                 // of the visibility whose principal components are taken, 2 to 6
+  PcaMetric metric = PcaMetric::surface;         // what its components are chosen for
   std::vector<double> metric_light;              // of PcaMetric::irradiance, as `radiance`; empty: that itself
   TexelStorage storage = TexelStorage::float32;  // of the weights
   TexturePacking packing = TexturePacking::layers;

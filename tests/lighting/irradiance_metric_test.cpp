@@ -5,11 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
 #include "lighting/light_tables.h"
 #include "lighting/radiance_basis.h"
 #include "lighting/random.h"
-#include "lighting/visibility_bundle.h"
 
 namespace twinshade {
 namespace {
@@ -70,12 +68,6 @@ TEST_CASE("without light all visibility matters alike, and no metric is singular
   shown[4] = 1, unseen[9] = 1;  // l = 2, l = 3
   CHECK(quadratic(metric, unseen) > 0);
   CHECK(quadratic(metric, shown) > 1e3 * quadratic(metric, unseen));
-}
-
-TEST_CASE("metrics of principal components are found by name") {
-  CHECK(find_pca_metric("visibility") == PcaMetric::visibility);
-  CHECK(find_pca_metric("irradiance") == PcaMetric::irradiance);
-  CHECK_THROWS_WITH_AS(find_pca_metric("irradience"), doctest::Contains("irradiance"), UserError);
 }
 
 }  // namespace twinshade

@@ -86,7 +86,7 @@ TEST_CASE("packed textures hold the values of layered ones: four a texel, hemisp
   CHECK(texture_packing(layered) == TexturePacking::layers);
   CHECK(texture_packing(packed) == TexturePacking::dx9);
 
-  const Texture &arrays = texture(layered, "visibility_pca"), &beside = texture(packed, "visibility_pca");
+  const Texture &arrays = texture(layered, "visibility_pca8"), &beside = texture(packed, "visibility_pca8");
   CHECK(beside.kind == TextureKind::two_d);
   CHECK(beside.width == 2 * 16);
   CHECK(beside.height == 16);
@@ -104,8 +104,8 @@ TEST_CASE("packed textures hold the values of layered ones: four a texel, hemisp
                          std::size_t c) { return t.texels[(((l * 12 + map) * 8 + y) * 8 + x) * 4 + c]; };
   const auto in_band = [](const Texture& t, std::size_t band, std::size_t l, std::size_t x, std::size_t y,
                           std::size_t c) { return t.texels[((band * 8 + y) * 16 + l * 8 + x) * 4 + c]; };
-  const Texture &pca = texture(layered, "tables_pca_dual_paraboloid"),
-                &bands = texture(packed, "tables_pca_dual_paraboloid"),
+  const Texture &pca = texture(layered, "tables_pca8_dual_paraboloid"),
+                &bands = texture(packed, "tables_pca8_dual_paraboloid"),
                 &sh3 = texture(layered, "tables_sh3_dual_paraboloid"),
                 &sh3_bands = texture(packed, "tables_sh3_dual_paraboloid");
   CHECK(pca.layers == 2 * 12);  // the mean alone in its four, then the components
@@ -164,7 +164,7 @@ TEST_CASE("no light, one texel a map, more components than coefficients, all see
     order2.order = 2;
     const Bundle few = bundle_of(scene, bake, some_light(), techniques, order2);
     CHECK(all_finite(few));
-    const Texture& weights = texture(few, "visibility_pca");
+    const Texture& weights = texture(few, "visibility_pca24");
     CHECK(std::all_of(weights.texels.begin() + 16 * 16 * 4, weights.texels.end(),
                       [](float value) { return value == 0; }));
     CHECK(std::any_of(weights.texels.begin(), weights.texels.begin() + 16 * 16 * 4,
@@ -179,7 +179,22 @@ TEST_CASE("where all cells see the same, components weigh nothing and the mean i
     std::copy_n(bake.sh.begin(), kVisibilityCount, bake.sh.begin() + std::ptrdiff_t(cell * kVisibilityCount));
   const Bundle bundle = bundle_of(scene, bake, some_light(), {"pca4"}, lighting_with(TexturePacking::layers));
   CHECK(all_finite(bundle));
-  for (const float value : texture(bundle, "visibility_pca").texels) CHECK(std::fabs(value) < 1e-6f);
+  for (const float value : texture(bundle, "visibility_pca4").texels) CHECK(std::fabs(value) < 1e-6f);
+}
+
+TEST_CASE("each count of components has weights of its own; techniques of one count share them") {
+  const Scene scene = roofed_floor();
+  const VisibilityBake bake = baked(scene);
+  const Bundle together =
+      bundle_of(scene, bake, some_light(), {"pca4", "pca8", "pca12", "pca_alu"}, lighting_with(TexturePacking::layers));
+  for (const char* name : {"pca4", "pca8", "pca12"}) {
+    const Bundle alone = bundle_of(scene, bake, some_light(), {name}, lighting_with(TexturePacking::layers));
+    const std::string weights = std::string("visibility_") + name;
+    CAPTURE(weights);
+    CHECK(texture(together, weights).texels == texture(alone, weights).texels);
+  }
+  CHECK(std::count_if(together.textures.begin(), together.textures.end(),
+                      [](const Texture& t) { return t.name.rfind("visibility_", 0) == 0; }) == 3);
 }
 
 TEST_CASE("one triangle without coordinates keeps its weights at the vertices, in every storage") {

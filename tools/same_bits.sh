@@ -7,7 +7,7 @@ set -euo pipefail
 [ $# -ge 1 ] || { echo "usage: tools/same_bits.sh TWINSHADE [OTHER_TWINSHADE ...]" >&2; exit 2; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-scene=(courtyard --technique h6,sh3,cutout,facets --lightmap 64 --rays 64)
+scene=(courtyard --technique h6,sh3,pca8,cutout,facets --lightmap 64 --rays 64 --visibility-rays 64)
 features=-FMA,-FMA4,-AVX2,-AVX2_Usable,-AVX512F,-ERMS
 
 # Variables of the environment and options of the variant at hand.
@@ -35,7 +35,7 @@ check_bake() {  # label, binary
 declare -A expected_frame
 check_frame() {  # label, binary
   local label=$1 binary=$2 technique hash
-  for technique in h6 sh3 cutout facets; do
+  for technique in h6 sh3 pca8 cutout facets; do
     hash=$(env ${environment[@]+"${environment[@]}"} "$binary" render "$work/reference.bundle" --technique $technique --on cpu \
       --quiet ${options[@]+"${options[@]}"} -o "$work/frame.exr" | awk '$1 == "frame" {print $2}')
     [ -n "$hash" ] || { echo "no frame hash: $label $technique" >&2; exit 1; }

@@ -180,7 +180,7 @@ void add_subject_options(CLI::App& command, SubjectOptions& options) {
              given("--map-width", [&](const std::string& text) {
                options.visibility.map_width = parse_between("--map-width", text, 1, kWidestMap);
              }));
-  add_parsed(command, "--order", "N", "order of the visibility whose principal components are taken (default: 6)",
+  add_parsed(command, "--order", "N", "order of the visibility that pca techniques take components of (default: 6)",
              given("--order",
                    [&](const std::string& text) { options.visibility.order = parse_between("--order", text, 2, 6); }));
   add_parsed(

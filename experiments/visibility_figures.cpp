@@ -1,5 +1,5 @@
 // Precomputed visibility on the scene house, in the manner of figures 4 to 7 of Iwanicki and Sloan, Normal Mapping with
-// Low-Frequency Precomputed Visibility (NMV), JGT 2012: principal components against all coefficients, orders against
+// Low-Frequency Precomputed Visibility (NMV), JGT 2012: components against all coefficients, orders against
 // rays, normal maps on and off, other environments. Every frame is drawn on the CPU by the techniques' own shaders; the
 // rows have the errors that the pictures show.
 #include <fmt/format.h>
@@ -48,11 +48,11 @@ class Shot {
 
   const std::string& environment() const { return probe_.name; }
 
-  // What principal components are chosen for: what surfaces show of any light, visibility all around (as the paper has
+  // What components are chosen for: what surfaces show of any light, visibility all around (as the paper has
   // them), this light, or this one before it was turned by kTurn.
   enum class Components { any_light, all_around, this_light, turned_light };
 
-  // order: of the visibility behind principal components.
+  // order: of the visibility behind components.
   std::vector<Frame> draw(const std::vector<const TechniqueInfo*>& techniques, int order, bool normal_map = true,
                           Components components = Components::any_light) const {
     std::vector<LitTechnique> wanted;

@@ -45,10 +45,6 @@ Root root_of(std::span<const double> metric, std::size_t n) {
 
 }  // namespace
 
-std::size_t PrincipalComponents::rank() const {
-  return std::size_t(std::count_if(eigenvalues.begin(), eigenvalues.end(), [](double value) { return value > 0; }));
-}
-
 double PrincipalComponents::tail(std::size_t components) const {
   double sum = 0;
   for (std::size_t i = dimension; i > components; --i) sum += eigenvalues[i - 1];

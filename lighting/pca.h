@@ -19,7 +19,6 @@ struct PrincipalComponents {
   std::vector<double> eigenvalues;  // [dimension]: of the weighted covariance, none below zero, descending
 
   std::size_t count() const { return dimension == 0 ? 0 : vectors.size() / dimension; }
-  std::size_t rank() const;  // of the data about their mean
   // Mean squared error (weighted; the square of the metric's distance) of using the first `components`.
   double tail(std::size_t components) const;
   // weights[cell * components + m] of values[cell * stride + k], for the first `components` vectors.

@@ -78,8 +78,8 @@ ShaderSource technique_source(const TechniqueInfo& technique, CoefficientStorage
                               const std::vector<std::string>& include_folders = {});
 
 // Visibility techniques. Names of what their shaders read: texture (lightmap; layer q: weights 4q to 4q + 3) or
-// attributes (vertex; "visibility_sh[q]"), and the texture of L x H tables. Those of principal components have their
-// count in the name: fewer are not the first of more.
+// attributes (vertex; "visibility_sh[q]"), and the texture of L x H tables. Those of components have their count in
+// the name: fewer are not the first of more.
 bool reads_sphere_map(const TechniqueInfo& technique);
 std::string visibility_name(const TechniqueInfo& technique);
 std::string light_tables_name(const TechniqueInfo& technique, const SphereMapInfo& map);

@@ -14,8 +14,9 @@
 namespace twinshade {
 namespace {
 
-constexpr int kGroupWidth = 8;  // cells of the cube map
-static_assert(kSurfaceGroups == 6 * kGroupWidth * kGroupWidth);
+// Cells of the cube map; odd, so that the commonest normals are in the middle of one.
+constexpr int kGroupWidth = 9;
+static_assert(kSurfaceGroups == 6 * kGroupWidth * kGroupWidth && kGroupWidth % 2 == 1);
 constexpr double kTilt = 0.5;  // tangent of the widest tilt
 constexpr int kRings = 2, kSpokes = 6;
 constexpr double kLeastWeight = 0.03;  // of the mean weight

@@ -1,6 +1,6 @@
 // How much a difference of visibility matters to irradiance under any light, on surfaces that face one way: what lies
-// below a surface its normals never show, and what grazes it hardly. With it as the metric principal components spend
-// nothing on that.
+// below a surface its normals never show, and what grazes it hardly. Components fitted by these metrics
+// (lighting/weighted_components.h) spend little on that.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace twinshade {
 
 // Which way surfaces face, in groups: the cells of a cube map of normals. By cell, of normals[cell * 3 + c]; without
 // length: any group.
-inline constexpr std::size_t kSurfaceGroups = 6 * 8 * 8;
+inline constexpr std::size_t kSurfaceGroups = 6 * 9 * 9;
 std::vector<std::uint16_t> surface_groups(std::span<const float> normals);
 
 // A metric for each group, facing the weighted mean of its cells' normals (its middle, where no cell counts):

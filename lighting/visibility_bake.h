@@ -33,7 +33,7 @@ struct VisibilityBake {
   std::uint32_t width = 0, height = 0;  // cells: texels; vertex storage: width = vertex count, height = 1
   std::vector<float> sh;                // kVisibilityCount a cell: the integral of V Y_i, world space
   std::vector<float> ambient;  // a cell: visible part of the geometric hemisphere, weighed by the cosine, 0 to 1
-  std::vector<float> normal;   // [cell * 3 + c]: interpolated, unit length where cells are not filled from neighbours
+  std::vector<float> normal;   // [cell * 3 + c]: interpolated; zero where no surface is near
   std::vector<float> area;     // a cell: surface that it stands for, square metres; 0 where there is none
   std::string hash;            // SHA-256 of the content
   std::vector<std::pair<std::string, std::string>> notes;  // scene and options, for bundles

@@ -43,10 +43,12 @@ class Adder {
   }
 
   void run() {
-    components_.emplace(bakes_[0], options_.order, options_.metric,
-                        options_.metric_light.empty() ? radiance_ : std::span<const double>(options_.metric_light));
+    if (std::any_of(wanted_.begin(), wanted_.end(),
+                    [](const LitTechnique& lit) { return lit.technique->weights == VisibilityWeights::pca; }))
+      components_.emplace(bakes_[0], options_.order, options_.metric,
+                          options_.metric_light.empty() ? radiance_ : std::span<const double>(options_.metric_light));
     for (const VisibilityBake& bake : bakes_)
-      for (const auto& [name, lit] : most_by_name(bake.storage)) add_weights(bake, name, *lit);
+      for (const auto& [name, technique] : most_by_name(bake.storage)) add_weights(bake, name, *technique);
     for (const LitTechnique& lit : wanted_) {
       if (reads_sphere_map(*lit.technique))
         for (const SphereMapInfo* map : options_.maps) add_tables(*lit.technique, *map);

@@ -1,11 +1,19 @@
 #include "lighting/visibility_components.h"
 
+#include <utility>
+
 #include "base/error.h"
 #include "base/names.h"
 #include "lighting/irradiance_metric.h"
 #include "lighting/surface_metric.h"
 
 namespace twinshade {
+namespace {
+
+// Principal components that leave less than this part of the variance are as good as any.
+constexpr double kNothingLeft = 1e-10;
+
+}  // namespace
 
 std::string_view pca_metric_name(PcaMetric metric) {
   return metric == PcaMetric::surface ? "surface" : metric == PcaMetric::visibility ? "visibility" : "irradiance";
@@ -32,14 +40,13 @@ VisibilityComponents::VisibilityComponents(const VisibilityBake& bake, int order
 }
 
 const VisibilityComponents::Fit& VisibilityComponents::fit(std::size_t count) {
-  const auto [found, is_new] = fits_.try_emplace(count);
-  Fit& fit = found->second;
-  if (!is_new) return fit;
-  fit.principal = principal_components(bake_.sh, kVisibilityCount, dimension_, bake_.area, count, metric_);
-  if (!group_metrics_.empty() && count < fit.principal.rank())
-    fit.weighted =
-        weighted_components(bake_.sh, kVisibilityCount, bake_.area, {group_of_cell_, group_metrics_}, fit.principal);
-  return fit;
+  if (const auto found = fits_.find(count); found != fits_.end()) return found->second;
+  Fit made;
+  made.principal = principal_components(bake_.sh, kVisibilityCount, dimension_, bake_.area, count, metric_);
+  if (!group_metrics_.empty() && made.principal.tail(count) > kNothingLeft * made.principal.tail(0))
+    made.weighted =
+        weighted_components(bake_.sh, kVisibilityCount, bake_.area, {group_of_cell_, group_metrics_}, made.principal);
+  return fits_.emplace(count, std::move(made)).first->second;
 }
 
 std::vector<double> VisibilityComponents::rows(std::size_t count) {

@@ -37,14 +37,14 @@ class VisibilityComponents {
  private:
   struct Fit {
     PrincipalComponents principal;
-    std::optional<WeightedComponents> weighted;  // instead, where fewer components than the rank are chosen by surface
+    std::optional<WeightedComponents> weighted;  // instead, where chosen by surface and something is left to choose
   };
   const Fit& fit(std::size_t count);
 
   const VisibilityBake& bake_;
   const std::size_t dimension_;
   std::vector<double> metric_;                // of all cells; none: sum of squares
-  std::vector<std::uint16_t> group_of_cell_;  // of PcaMetric::surface, and their metrics
+  std::vector<std::uint16_t> group_of_cell_;  // of PcaMetric::surface, and the groups' metrics
   std::vector<double> group_metrics_;
   std::map<std::size_t, Fit> fits_;  // by count
 };

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
@@ -27,11 +28,13 @@ struct Group {
 std::vector<Group> gather_groups(std::span<const float> values, std::size_t stride, std::span<const float> cell_weights,
                                  const GroupMetrics& metrics, const std::vector<double>& mean) {
   const std::size_t n = mean.size();
+  TWINSHADE_CHECK_EQ(metrics.metrics.size() % (n * n), std::size_t{0});
   const auto size = Eigen::Index(n);
   std::vector<std::vector<std::uint32_t>> cells(metrics.metrics.size() / (n * n));
   double whole = 0;
   for (std::size_t cell = 0; cell < cell_weights.size(); ++cell)
     if (cell_weights[cell] > 0) {
+      TWINSHADE_CHECK_LT(std::size_t(metrics.group_of_cell[cell]), cells.size());
       cells[metrics.group_of_cell[cell]].push_back(std::uint32_t(cell));
       whole += cell_weights[cell];
     }
@@ -90,8 +93,7 @@ void choose_vectors(const std::vector<Group>& groups, const std::vector<Round>& 
       matrix += covariance(m, m) * groups[g].metric;
       target += rounds[g].target.col(m) - groups[g].metric * others;
     }
-    const double size = matrix.trace() / double(n);
-    if (!(size > 0)) continue;  // no cell has any weight of it
+    if (!(matrix.trace() > 0)) continue;  // no cell has any weight of it
     vectors.col(m) = matrix.ldlt().solve(target);
   }
 }
@@ -105,6 +107,7 @@ void turn_to_principal_axes(const std::vector<Group>& groups, const std::vector<
     covariance += rounds[g].covariance;
   }
   const Eigen::LLT<Matrix> root(vectors.transpose() * metric * vectors);
+  TWINSHADE_CHECK_EQ(int(root.info()), int(Eigen::Success));
   const Matrix lower = root.matrixL();
   const Matrix orthonormal = lower.triangularView<Eigen::Lower>().solve(vectors.transpose()).transpose();
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(lower.transpose() * covariance * lower);  // ascending
@@ -121,6 +124,7 @@ void turn_to_principal_axes(const std::vector<Group>& groups, const std::vector<
 
 std::vector<double> mean_metric(const GroupMetrics& metrics, std::span<const float> cell_weights,
                                 std::size_t dimension) {
+  TWINSHADE_CHECK_EQ(metrics.group_of_cell.size(), cell_weights.size());
   const std::size_t square = dimension * dimension;
   std::vector<double> weights(metrics.metrics.size() / square, 0.0), mean(square, 0.0);
   double whole = 0;
@@ -139,7 +143,7 @@ WeightedComponents weighted_components(std::span<const float> values, std::size_
                                        const PrincipalComponents& start) {
   TWINSHADE_CHECK_EQ(values.size(), stride * cell_weights.size());
   TWINSHADE_CHECK_EQ(metrics.group_of_cell.size(), cell_weights.size());
-  TWINSHADE_CHECK_LE(start.count() + 1, start.rank());
+  TWINSHADE_CHECK_LT(0.0, start.tail(start.count()));
   const auto n = Eigen::Index(start.dimension), count = Eigen::Index(start.count());
   std::vector<Group> groups = gather_groups(values, stride, cell_weights, metrics, start.mean);
   std::vector<Round> rounds(groups.size());
@@ -156,7 +160,7 @@ WeightedComponents weighted_components(std::span<const float> values, std::size_
 
   WeightedComponents out;
   out.dimension = start.dimension, out.components = start.count(), out.mean = start.mean;
-  out.error = choose_weights(groups, vectors, rounds);
+  out.error = std::max(0.0, choose_weights(groups, vectors, rounds));
   out.vectors.assign(vectors.data(), vectors.data() + vectors.size());
   for (const Group& group : groups) {
     const Matrix by_row = group.duals.transpose();

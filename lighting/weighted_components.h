@@ -33,7 +33,7 @@ struct GroupMetrics {
 };
 
 // values, stride, cell_weights: as of principal_components, which also gave `start`: the mean, and a first guess of
-// vectors. As many components as that has; the rank must be higher, for then fewer lose nothing. Vectors are
+// vectors. As many components as that has, and it must leave something: a tail above 0. Vectors are
 // orthonormal in the mean metric, most variance of weights first, signs as of principal_components. Fewer components
 // are not the first of more.
 WeightedComponents weighted_components(std::span<const float> values, std::size_t stride,

@@ -33,7 +33,7 @@ std::string black_environment(const Folder& folder) {
 
 TEST_CASE("packed textures draw the bits that layered ones draw, on every machine") {
   const std::string machines = all_machines();
-  std::vector<std::string> technique{"--technique", "unc3,preconv,sh2_product", "--visibility-packing", "dx9"};
+  std::vector<std::string> technique{"--technique", "unc3,pca8,preconv,sh2_product", "--visibility-packing", "dx9"};
   if (machines != "cpu") {
     technique.insert(technique.end(), {"--on", machines});
     const Run run = run_twinshade(seen_quad({"compare"}, technique));
@@ -46,7 +46,7 @@ TEST_CASE("packed textures draw the bits that layered ones draw, on every machin
       CHECK(row["shaded_pixels"] > 0);
     }
   }
-  for (const std::string name : {"unc3", "preconv", "sh2_product"})
+  for (const std::string name : {"unc3", "pca8", "preconv", "sh2_product"})
     CHECK(frame_of({"--technique", name}) == frame_of({"--technique", name, "--visibility-packing", "dx9"}));
 }
 

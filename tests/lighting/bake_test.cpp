@@ -1,7 +1,6 @@
 #include "lighting/bake.h"
 
 #include <doctest/doctest.h>
-#include <unistd.h>
 
 #include <array>
 #include <cstdio>
@@ -14,6 +13,7 @@
 #include "base/parallel.h"
 #include "lighting/bake_cache.h"
 #include "tests/lighting/small_scenes.h"
+#include "tests/lighting/temporary_cache.h"
 
 namespace twinshade {
 namespace {
@@ -54,18 +54,6 @@ std::string both_hashes() {
   scene.lightmap_uvs.clear();
   return lightmap + " " + bake_hash(scene);
 }
-
-struct TemporaryCache {
-  std::string folder;
-  TemporaryCache() {
-    folder = std::filesystem::temp_directory_path() / ("twinshade_bake_test_" + std::to_string(getpid()));
-    setenv("TWINSHADE_CACHE", folder.c_str(), 1);
-  }
-  ~TemporaryCache() {
-    unsetenv("TWINSHADE_CACHE");
-    std::filesystem::remove_all(folder);
-  }
-};
 
 // What this test program prints for the hidden case below, run afresh under another environment.
 std::string hashes_in_child(const std::string& variables) {
@@ -137,11 +125,7 @@ TEST_CASE("a cached bake is the bake; a damaged entry is rebuilt") {
   CHECK(second.sh == first.sh);
   CHECK(second.notes == first.notes);
 
-  for (const auto& entry : std::filesystem::directory_iterator(cache.folder)) {
-    std::string bytes = read_file(entry.path());
-    bytes[bytes.size() / 2] = char(bytes[bytes.size() / 2] ^ 1);
-    write_file(entry.path(), bytes);
-  }
+  cache.damage();
   const LightBake third = bake_light(scene, busy_environment(), options);
   CHECK(third.rays_per_second > 0);
   CHECK(third.hash == first.hash);

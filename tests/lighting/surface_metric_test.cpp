@@ -109,6 +109,19 @@ TEST_CASE(
   for (const std::uint16_t group : groups) CHECK(group < kSurfaceGroups);
 }
 
+TEST_CASE("a normal along an axis and the same but for rounding are of one group") {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const float sign : {-1.0f, 1.0f})
+      for (const float off : {-1e-6f, 1e-6f}) {
+        float normals[6] = {};
+        normals[axis] = normals[3 + axis] = sign;
+        normals[3 + (axis + 1) % 3] = off;
+        normals[3 + (axis + 2) % 3] = -off;
+        const std::vector<std::uint16_t> groups = surface_groups(normals);
+        CHECK(groups[0] == groups[1]);
+      }
+}
+
 TEST_CASE("metrics of surfaces do not depend on the number of threads") {
   const std::vector<float> normals = random_normals(1000), weights(1000, 0.5f);
   const int threads = thread_count();

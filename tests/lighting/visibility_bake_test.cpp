@@ -10,6 +10,7 @@
 #include "lighting/quadrature.h"
 #include "lighting/radiance_basis.h"
 #include "tests/lighting/small_scenes.h"
+#include "tests/lighting/temporary_cache.h"
 
 namespace twinshade {
 namespace {
@@ -70,6 +71,9 @@ TEST_CASE("a floor sees the upper hemisphere, and more rays see it better") {
     worst_fine = std::max(worst_fine, worst_difference(fine, cell, expected));
     CHECK(fine.ambient[cell] == 1);
     CHECK(fine.area[cell] == doctest::Approx(4.0 / 256).epsilon(1e-5));
+    CHECK(fine.normal[cell * 3] == 0);
+    CHECK(fine.normal[cell * 3 + 1] == 1);
+    CHECK(fine.normal[cell * 3 + 2] == 0);
   }
   CHECK(worst_fine < 0.01);
   CHECK(worst_fine < 0.2 * worst_coarse);
@@ -110,6 +114,31 @@ TEST_CASE("texels inside geometry take their values from their neighbours, and g
   CHECK(bake.area[edge] == 0);
   CHECK(bake.sh[edge * kVisibilityCount] > 1);
   CHECK(bake.sh[beyond * kVisibilityCount] > 1);
+  for (const std::size_t cell : {under, edge, beyond}) {
+    CHECK(bake.normal[cell * 3] == 0);
+    CHECK(bake.normal[cell * 3 + 1] == 1);
+    CHECK(bake.normal[cell * 3 + 2] == 0);
+  }
+}
+
+TEST_CASE("a cached bake of visibility is the bake; a damaged entry is rebuilt") {
+  const TemporaryCache cache;
+  VisibilityOptions options = fast_options(64);
+  options.lightmap_size = 40;
+  options.use_cache = true;
+  const auto is_same = [](const VisibilityBake& a, const VisibilityBake& b) {
+    return a.width == b.width && a.height == b.height && a.storage == b.storage && a.sh == b.sh &&
+           a.ambient == b.ambient && a.normal == b.normal && a.area == b.area && a.hash == b.hash && a.notes == b.notes;
+  };
+  const VisibilityBake first = bake_visibility(box_on_floor(), options);
+  CHECK(first.rays_per_second > 0);
+  const VisibilityBake second = bake_visibility(box_on_floor(), options);
+  CHECK(second.rays_per_second == 0);
+  CHECK(is_same(first, second));
+  cache.damage();
+  const VisibilityBake third = bake_visibility(box_on_floor(), options);
+  CHECK(third.rays_per_second > 0);
+  CHECK(is_same(first, third));
 }
 
 TEST_CASE("scenes without lightmap coordinates are baked per vertex, with a third of each triangle's area") {

@@ -101,6 +101,34 @@ TEST_CASE("components chosen by surface err least where surfaces show it, the pa
   CHECK(surface.by_surface < all.by_surface);
 }
 
+TEST_CASE("another bake has weights of the same components, wherever its surfaces face") {
+  VisibilityBake some = random_bake(300), others = random_bake(800);
+  // None faces up
+  for (std::size_t cell = 0; cell < some.cells(); ++cell)
+    some.normal[cell * 3 + 2] = -std::fabs(some.normal[cell * 3 + 2]);
+  for (const PcaMetric metric : kMetrics) {
+    VisibilityComponents components(some, 3, metric, some_light());
+    CAPTURE(int(metric));
+    const std::vector<float> own = components.weights(some, 4), whole = components.weights(others, 4);
+    REQUIRE(whole.size() == others.cells() * 4);
+    CHECK(std::all_of(whole.begin(), whole.end(), [](float weight) { return std::fabs(weight) < 100; }));
+    // The first cells are the same where they face the same
+    for (std::size_t cell = 0; cell < some.cells(); ++cell)
+      if (others.normal[cell * 3 + 2] < 0)
+        for (std::size_t m = 0; m < 4; ++m) CHECK(whole[cell * 4 + m] == own[cell * 4 + m]);
+  }
+}
+
+TEST_CASE("without any surface that counts components are zero") {
+  VisibilityBake bake = random_bake(50);
+  std::fill(bake.area.begin(), bake.area.end(), 0.0f);
+  for (const PcaMetric metric : kMetrics) {
+    VisibilityComponents components(bake, 3, metric, some_light());
+    for (const double value : components.rows(4)) CHECK(value == 0);
+    for (const float weight : components.weights(bake, 4)) CHECK(weight == 0);
+  }
+}
+
 TEST_CASE("metrics of components are found by name") {
   for (const PcaMetric metric : kMetrics) CHECK(find_pca_metric(std::string(pca_metric_name(metric))) == metric);
   CHECK_THROWS_WITH_AS(find_pca_metric("surfaces"), doctest::Contains("surface"), UserError);

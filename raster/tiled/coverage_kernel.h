@@ -1,6 +1,6 @@
-// Which pixels a triangle covers and how deep it is there. Hierarchy: superblocks of 16 x 16 pixels in 64-bit
-// arithmetic, then blocks of 4 x 4, then pixels in 32 bits, W at a time (after Abrash, Rasterization on Larrabee,
-// 2009).
+// Which pixels a triangle covers and how deep it is there. Hierarchy: windows of 16 x 16 pixels in 64-bit arithmetic,
+// from the triangle's first block on, so that a small triangle has one; then blocks of 4 x 4, then pixels in 32 bits, W
+// at a time (after Abrash, Rasterization on Larrabee, 2009).
 #pragma once
 
 #include "cpu_shaders/runtime/numbers.h"
@@ -17,27 +17,29 @@ alignas(64) inline constexpr std::int32_t kPixelY[16] = {0, 0, 1, 1, 0, 0, 1, 1,
 alignas(64) inline constexpr std::int32_t kBlockX[16] = {0, 4, 8, 12, 0, 4, 8, 12, 0, 4, 8, 12, 0, 4, 8, 12};
 alignas(64) inline constexpr std::int32_t kBlockY[16] = {0, 0, 0, 0, 4, 4, 4, 4, 8, 8, 8, 8, 12, 12, 12, 12};
 
-// Edge values are cut off here: farther from 0 than any step within a superblock (15 * (|a| + |b|) < 2^29) can lead
-// back.
+// Pixels across a window.
+inline constexpr std::uint32_t kWindow = 16;
+// Edge values are cut off here: farther from 0 than any step within a window (15 * (|a| + |b|) < 2^29) can lead back.
 inline constexpr std::int64_t kEdgeLimit = std::int64_t{1} << 30;
 
-// Calls block(pixel index in the tile, x, y, inside) for each group of W pixels of which some are covered; x and y are
-// the block's lower left pixel in the frame, `group` the group's first pixel within the block.
-template <int W, class Block>
-TWINSHADE_INLINE void for_each_covered_group(const RasterTriangle& t, const CoverTile& tile, Block block) {
+// Calls group(pixel index in the tile, x, y, g, inside) for each group of W pixels of which some are covered; x and y
+// are the block's lower left pixel in the frame, g counts the groups within the block.
+template <int W, class Group>
+TWINSHADE_INLINE void for_each_covered_group(const RasterTriangle& t, const CoverTile& tile, Group group) {
   using I = Simd<std::int32_t, W>;
   constexpr int kGroups = 16 / W;
 
-  // Steps from a superblock's first pixel to its blocks' pixels that are most inside, and from a block's to its pixels.
-  std::int64_t superblock_reach[3];
-  I block_step[3][kGroups], pixel_step[3][kGroups];
+  // Steps from a window's first pixel to its blocks' first pixels, from these to their blocks' pixels that are most
+  // inside, and from a block's first pixel to all of its pixels.
+  std::int64_t window_reach[3];
+  I block_step[3][kGroups], block_reach[3], pixel_step[3][kGroups];
   for (int e = 0; e < 3; ++e) {
     const I a(t.a[e]), b(t.b[e]);
     const std::int32_t positive_a = t.a[e] > 0 ? t.a[e] : 0, positive_b = t.b[e] > 0 ? t.b[e] : 0;
-    superblock_reach[e] = 15 * (std::int64_t(positive_a) + positive_b);
-    const I block_reach(3 * positive_a + 3 * positive_b);
+    window_reach[e] = 15 * (std::int64_t(positive_a) + positive_b);
+    block_reach[e] = I(3 * positive_a + 3 * positive_b);
     for (int g = 0; g < kGroups; ++g) {
-      block_step[e][g] = a * I::load(kBlockX + g * W) + b * I::load(kBlockY + g * W) + block_reach;
+      block_step[e][g] = a * I::load(kBlockX + g * W) + b * I::load(kBlockY + g * W);
       pixel_step[e][g] = a * I::load(kPixelX + g * W) + b * I::load(kPixelY + g * W);
     }
   }
@@ -48,45 +50,47 @@ TWINSHADE_INLINE void for_each_covered_group(const RasterTriangle& t, const Cove
   const std::uint32_t y0 = t.min_y > tile.y ? t.min_y : tile.y, y1 = t.max_y < tile_end_y ? t.max_y : tile_end_y;
   const std::uint32_t superblocks_a_row = tile.size / kSuperblock;
 
-  for (std::uint32_t sy = (y0 - tile.y) / kSuperblock; sy <= (y1 - tile.y) / kSuperblock; ++sy)
-    for (std::uint32_t sx = (x0 - tile.x) / kSuperblock; sx <= (x1 - tile.x) / kSuperblock; ++sx) {
-      const std::uint32_t x = tile.x + sx * kSuperblock, y = tile.y + sy * kSuperblock;
+  for (std::uint32_t y = y0 & ~3u; y <= y1; y += kWindow)
+    for (std::uint32_t x = x0 & ~3u; x <= x1; x += kWindow) {
       std::int32_t edge[3];
       bool outside = false;
       for (int e = 0; e < 3; ++e) {
         const std::int64_t value = t.c[e] + std::int64_t(t.a[e]) * x + std::int64_t(t.b[e]) * y;
-        outside |= value + superblock_reach[e] < 0;
+        outside |= value + window_reach[e] < 0;
         edge[e] = std::int32_t(value < kEdgeLimit ? value : kEdgeLimit);
       }
       if (outside) continue;
 
       // Bit k: block k holds pixels of the bounding box and is not wholly outside an edge.
-      const std::uint32_t from_column = x0 > x ? (x0 - x) / 4 : 0, to_column = x1 - x < 15 ? (x1 - x) / 4 : 3;
-      const std::uint32_t from_row = y0 > y ? (y0 - y) / 4 : 0, to_row = y1 - y < 15 ? (y1 - y) / 4 : 3;
-      const std::uint32_t columns = (0xfu >> (3 - to_column) & 0xfu << from_column) * 0x1111u;
-      std::uint32_t blocks = columns & (0xffffu >> (12 - 4 * to_row)) & (0xffffu << 4 * from_row);
-      std::uint32_t maybe = 0;
+      const std::uint32_t to_column = x1 - x < 15 ? (x1 - x) / 4 : 3, to_row = y1 - y < 15 ? (y1 - y) / 4 : 3;
+      const std::uint32_t in_box = (0xfu >> (3 - to_column)) * 0x1111u & 0xffffu >> (12 - 4 * to_row);
+      alignas(64) std::int32_t block_edge[3][16];
+      std::uint32_t blocks = 0;
       for (int g = 0; g < kGroups; ++g) {
-        const I nearest =
-            (I(edge[0]) + block_step[0][g]) | (I(edge[1]) + block_step[1][g]) | (I(edge[2]) + block_step[2][g]);
-        maybe |= (nearest >= I(0)).bits() << (g * W);
+        I nearest(0);
+        for (int e = 0; e < 3; ++e) {
+          const I first = I(edge[e]) + block_step[e][g];
+          first.store(block_edge[e] + g * W);
+          nearest = nearest | (first + block_reach[e]);
+        }
+        blocks |= (nearest >= I(0)).bits() << (g * W);
       }
-      blocks &= maybe;
+      blocks &= in_box;
 
-      const std::uint32_t superblock_pixels = (sy * superblocks_a_row + sx) * kSuperblock * kSuperblock;
       for (; blocks != 0; blocks &= blocks - 1) {
         const std::uint32_t k = std::uint32_t(__builtin_ctz(blocks));
-        const std::int32_t block_x = kBlockX[k], block_y = kBlockY[k];
-        const std::uint32_t frame_x = x + std::uint32_t(block_x), frame_y = y + std::uint32_t(block_y);
-        I start[3];
-        for (int e = 0; e < 3; ++e) start[e] = I(edge[e] + t.a[e] * block_x + t.b[e] * block_y);
+        const std::uint32_t frame_x = x + std::uint32_t(kBlockX[k]), frame_y = y + std::uint32_t(kBlockY[k]);
+        const std::uint32_t column = (frame_x - tile.x) / 4, row = (frame_y - tile.y) / 4;
+        const std::uint32_t superblock = row / 4 * superblocks_a_row + column / 4;
+        const std::uint32_t pixel = (superblock * 16 + row % 4 * 4 + column % 4) * 16;
         for (int g = 0; g < kGroups; ++g) {
-          auto inside =
-              ((start[0] + pixel_step[0][g]) | (start[1] + pixel_step[1][g]) | (start[2] + pixel_step[2][g])) >= I(0);
+          I nearest(0);
+          for (int e = 0; e < 3; ++e) nearest = nearest | (I(block_edge[e][k]) + pixel_step[e][g]);
+          auto inside = nearest >= I(0);
           if (frame_x + 3 >= tile.frame_width || frame_y + 3 >= tile.frame_height)
             inside = inside & (I::load(kPixelX + g * W) < I(std::int32_t(tile.frame_width - frame_x))) &
                      (I::load(kPixelY + g * W) < I(std::int32_t(tile.frame_height - frame_y)));
-          if (any(inside)) block(superblock_pixels + k * 16 + std::uint32_t(g * W), frame_x, frame_y, g, inside);
+          if (any(inside)) group(pixel + std::uint32_t(g * W), frame_x, frame_y, g, inside);
         }
       }
     }

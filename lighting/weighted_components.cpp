@@ -62,12 +62,17 @@ struct Round {
   double error = 0;
 };
 
-// Best weights for these vectors. Returns the error.
+void set_duals(const Matrix& vectors, Group& group) {
+  const Matrix through = vectors.transpose() * group.metric;
+  group.duals = (through * vectors).ldlt().solve(through);
+}
+
+// Best weights for these vectors, where any cell counts. Returns the error.
 double choose_weights(std::vector<Group>& groups, const Matrix& vectors, std::vector<Round>& rounds) {
   parallel_for(groups.size(), [&](std::size_t g, int) {
     Group& group = groups[g];
-    const Matrix through = vectors.transpose() * group.metric;
-    group.duals = (through * vectors).ldlt().solve(through);
+    if (!(group.weight > 0)) return;
+    set_duals(vectors, group);
     Round& round = rounds[g];
     const Matrix cross = group.moments * group.duals.transpose();  // n x M
     round.covariance = group.duals * cross;
@@ -103,6 +108,7 @@ void turn_to_principal_axes(const std::vector<Group>& groups, const std::vector<
   const Eigen::Index n = vectors.rows(), count = vectors.cols();
   Matrix metric = Matrix::Zero(n, n), covariance = Matrix::Zero(count, count);
   for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (!(groups[g].weight > 0)) continue;
     metric += groups[g].weight * groups[g].metric;
     covariance += rounds[g].covariance;
   }
@@ -162,7 +168,8 @@ WeightedComponents weighted_components(std::span<const float> values, std::size_
   out.dimension = start.dimension, out.components = start.count(), out.mean = start.mean;
   out.error = std::max(0.0, choose_weights(groups, vectors, rounds));
   out.vectors.assign(vectors.data(), vectors.data() + vectors.size());
-  for (const Group& group : groups) {
+  for (Group& group : groups) {
+    if (!(group.weight > 0)) set_duals(vectors, group);  // cells that do not count have weights, too
     const Matrix by_row = group.duals.transpose();
     out.duals.insert(out.duals.end(), by_row.data(), by_row.data() + by_row.size());
   }

@@ -120,7 +120,7 @@ TEST_CASE("what is of low rank where it matters is found under whatever else the
       if ((k + 2 * field.groups[cell]) % kDimension < 2) value += 3 * random_real(30 + k, cell);
       field.values[cell * kStride + k] = float(value);
     }
-  // Not their area's mean, which the noise moves: their own
+  // Principal components in the mean metric follow the noise
   CHECK(field.start(3).tail(3) > 0.1);
   CHECK(field.fit(3).error < 0.01);
 }

@@ -19,6 +19,18 @@ constexpr std::array<std::array<std::uint32_t, 4>, 16> make_lane_masks() {
 }
 constexpr auto kLaneMasks = make_lane_masks();
 
+// [m]: the bits that are set in m, the lowest first.
+constexpr std::array<std::array<std::uint32_t, 4>, 16> make_set_bits() {
+  std::array<std::array<std::uint32_t, 4>, 16> bits{};
+  for (std::size_t m = 0; m < 16; ++m)
+    for (std::uint32_t i = 0, count = 0; i < 4; ++i)
+      if (m >> i & 1) bits[m][count++] = i;
+  return bits;
+}
+constexpr auto kSetBits = make_set_bits();
+
+using U4 = Simd<std::uint32_t, 4>;
+
 }  // namespace
 
 Batch::Batch(const Draw& draw)
@@ -29,7 +41,6 @@ Batch::Batch(const Draw& draw)
       frag_coord_(std::size_t(kStride) * 4),
       outputs_(std::size_t(kStride) * draw.module.output_components),
       frag_depth_(kStride),
-      live_(kStride),
       front_facing_(kStride),
       primitive_id_(kStride),
       kept_(kStride) {
@@ -37,23 +48,53 @@ Batch::Batch(const Draw& draw)
   for (const Scalar scalar : draw.bound.input_scalars) scalars_.push_back(std::uint8_t(scalar));
 }
 
-void Batch::add(ShadeQuad quad, std::uint32_t tile_quad, std::uint32_t coverage) {
-  quads_[count_] = quad;
-  tile_quads_[count_] = tile_quad;
-  coverage_[count_] = coverage;
-  ++count_;
+void Batch::begin_tile(std::uint32_t x, std::uint32_t y) {
+  tile_x_ = x;
+  tile_y_ = y;
+}
+
+void Batch::continue_run(std::uint32_t local) {
+  if (run_count_ == 0 || runs_[run_count_ - 1].local != local) runs_[run_count_++] = {local, count_};
+}
+
+void Batch::add_quad(std::uint32_t local, std::uint32_t quad, std::uint32_t coverage) {
+  continue_run(local);
+  (U4(4 * quad) + U4::load(kSetBits[15].data())).store(pixels_ + count_);
+  U4::load(kLaneMasks[coverage].data()).store(live_ + count_);
+  all_live_ = false;
+  count_ += 4;
+}
+
+void Batch::add_covered(std::uint32_t local, std::uint32_t quad, std::uint32_t coverage) {
+  continue_run(local);
+  (U4(4 * quad) + U4::load(kSetBits[coverage].data())).store(pixels_ + count_);
+  U4(~0u).store(live_ + count_);
+  count_ += std::uint32_t(std::popcount(coverage));
+}
+
+void Batch::clear() {
+  count_ = run_count_ = 0;
+  all_live_ = true;
 }
 
 void Batch::shade(const LocalPrimitive* primitives, StageClock& clock) {
-  // Whole vectors of 16: dead quads repeat the last one.
-  const std::uint32_t padded = (count_ + 3) / 4 * 4;
-  for (std::uint32_t q = count_; q < padded; ++q) quads_[q] = quads_[count_ - 1];
+  // Whole vectors of 16: dead invocations repeat the last one.
+  const std::uint32_t padded = (count_ + 15) / 16 * 16;
+  for (std::uint32_t k = count_; k < padded; ++k) {
+    pixels_[k] = pixels_[count_ - 1];
+    live_[k] = 0;
+  }
 
   std::optional<FlushDenormals> flush;
   if (!draw_.float64()) flush.emplace();
-  InterpolateQuads interpolate;
-  interpolate.quads = quads_;
+  Interpolate interpolate;
+  interpolate.pixels = pixels_;
   interpolate.count = padded;
+  interpolate.tile_x = tile_x_;
+  interpolate.tile_y = tile_y_;
+  interpolate.superblocks_log = std::uint32_t(std::countr_zero(draw_.grid.tile_size / kSuperblock));
+  interpolate.runs = runs_;
+  interpolate.run_count = run_count_;
   interpolate.primitives = primitives;
   interpolate.vertices = &draw_.vertices;
   interpolate.interpolation = interpolation_.data();
@@ -67,19 +108,19 @@ void Batch::shade(const LocalPrimitive* primitives, StageClock& clock) {
   interpolate.front_facing = draw_.module.uses_front_facing ? front_facing_.data() : nullptr;
   draw_.kernels.interpolate(interpolate);
 
-  for (std::uint32_t q = 0; q < padded; ++q)
-    std::memcpy(&live_[4 * q], kLaneMasks[q < count_ ? coverage_[q] : 0].data(), 16);
   if (draw_.module.uses_primitive_id)
-    for (std::uint32_t q = 0; q < padded; ++q)
-      for (std::uint32_t i = 0; i < 4; ++i) primitive_id_[4 * q + i] = primitives[quads_[q].local].primitive;
+    for (std::uint32_t r = 0; r < run_count_; ++r)
+      std::fill(primitive_id_.data() + runs_[r].first,
+                primitive_id_.data() + (r + 1 < run_count_ ? runs_[r + 1].first : padded),
+                primitives[runs_[r].local].primitive);
   clock.lap(Stage::interpolate);
 
   ShadeCall call;
-  call.count = 4 * padded;
+  call.count = padded;
   call.stride = kStride;
   call.inputs = inputs_.data();
   call.frag_coord = frag_coord_.data();
-  call.live = live_.data();
+  call.live = live_;
   call.front_facing = front_facing_.data();
   call.primitive_id = primitive_id_.data();
   call.outputs = outputs_.data();
@@ -89,15 +130,8 @@ void Batch::shade(const LocalPrimitive* primitives, StageClock& clock) {
   clock.lap(Stage::shade);
 }
 
-std::uint32_t Batch::kept(std::uint32_t quad) const {
-  std::uint32_t mask = 0;
-  for (std::uint32_t i = 0; i < 4; ++i) mask |= (kept_[4 * quad + i] & 1u) << i;
-  return mask & coverage_[quad];
-}
-
-float Batch::frag_depth(std::uint32_t quad, std::uint32_t pixel) const {
-  const std::size_t i = 4 * std::size_t(quad) + pixel;
-  const float depth = draw_.float64() ? float(frag_depth_[i]) : reinterpret_cast<const float*>(frag_depth_.data())[i];
+float Batch::frag_depth(std::uint32_t k) const {
+  const float depth = draw_.float64() ? float(frag_depth_[k]) : reinterpret_cast<const float*>(frag_depth_.data())[k];
   return depth < 1 ? (depth > 0 ? depth : 0.0f) : 1.0f;  // NaN: 1, which no depth is greater than
 }
 
@@ -109,39 +143,39 @@ void Batch::store(float* tile_color) const {
     return;
   }
   const float* outputs = reinterpret_cast<const float*>(outputs_.data());
-  StoreQuads call{};
+  StoreColors call{};
   for (std::uint32_t c = 0; c < draw_.bound.color_components; ++c)
     call.channels[c] = outputs + std::size_t(draw_.bound.color_first + c) * kStride;
-  call.tile_quads = tile_quads_;
-  call.coverage = coverage_;
+  call.pixels = pixels_;
+  call.stored = all_live_ ? nullptr : live_;
   call.count = count_;
   call.color = tile_color;
-  draw_.kernels.store_quads(call);
+  draw_.kernels.store_colors(call);
   if (draw_.options.capture_attributes) store_extras(outputs, reinterpret_cast<const float*>(inputs_.data()));
 }
 
 // Colours in double, rounded.
 void Batch::store_narrowed(float* tile_color) const {
-  for (std::uint32_t q = 0; q < count_; ++q)
-    for (std::uint32_t i = 0; i < 4; ++i) {
-      if (!(coverage_[q] >> i & 1)) continue;
-      float* pixel = tile_color + (4 * std::size_t(tile_quads_[q]) + i) * 4;
-      for (std::uint32_t c = 0; c < 4; ++c)
-        pixel[c] = c < draw_.bound.color_components
-                       ? float(outputs_[std::size_t(draw_.bound.color_first + c) * kStride + 4 * q + i])
-                       : 0.0f;
-    }
+  for (std::uint32_t k = 0; k < count_; ++k) {
+    if (live_[k] == 0) continue;
+    float* pixel = tile_color + 4 * std::size_t(pixels_[k]);
+    for (std::uint32_t c = 0; c < 4; ++c)
+      pixel[c] = c < draw_.bound.color_components
+                     ? float(outputs_[std::size_t(draw_.bound.color_first + c) * kStride + k])
+                     : 0.0f;
+  }
 }
 
 template <class R>
 void Batch::store_extras(const R* outputs, const R* inputs) const {
   Frame& frame = draw_.frame;
   const std::size_t pixels = std::size_t(frame.width) * frame.height;
-  for (std::uint32_t k = 0; k < 4 * count_; ++k) {
-    const std::uint32_t quad = k / 4, i = k % 4;
-    if (!(coverage_[quad] >> i & 1)) continue;
-    const std::size_t pixel =
-        (quads_[quad].y + std::size_t(i >> 1)) * frame.width + quads_[quad].x + std::size_t(i & 1);
+  // Where the pixels are: as the interpolation found them.
+  const R* const center_x = reinterpret_cast<const R*>(center_x_.data());
+  const R* const center_y = reinterpret_cast<const R*>(center_y_.data());
+  for (std::uint32_t k = 0; k < count_; ++k) {
+    if (live_[k] == 0) continue;
+    const std::size_t pixel = std::size_t(center_y[k]) * frame.width + std::size_t(center_x[k]);
     if constexpr (sizeof(R) == sizeof(double))
       for (std::uint32_t c = 0; c < draw_.bound.color_components; ++c)
         frame.color64[4 * pixel + c] = outputs[std::size_t(draw_.bound.color_first + c) * kStride + k];

@@ -29,49 +29,56 @@ struct Draw {
   bool in_order() const { return module.discards || module.writes_depth || module.has_side_effects; }
 };
 
-// Quads are shaded this many at a time, whatever the size of triangles.
-inline constexpr std::uint32_t kBatchQuads = 64;
+// Invocations are shaded this many at a time, whatever the size of triangles.
+inline constexpr std::uint32_t kBatchSize = 256;
 
 // Invocations going through interpolation and the shader together.
 class Batch {
  public:
   explicit Batch(const Draw& draw);
 
+  // The lower left pixel, in the frame, of the tile that pixels are of from now on.
+  void begin_tile(std::uint32_t x, std::uint32_t y);
+
   std::uint32_t count() const { return count_; }
-  bool full() const { return count_ == kBatchQuads; }
-  // tile_quad: index in the tile's memory / 4; coverage: bit i for pixel i of the quad.
-  void add(ShadeQuad quad, std::uint32_t tile_quad, std::uint32_t coverage);
+  // No room for another quad.
+  bool full() const { return count_ + 4 > kBatchSize; }
+  // All four pixels of a quad. quad: index in the tile's memory / 4; coverage: bit i for its pixel i.
+  void add_quad(std::uint32_t local, std::uint32_t quad, std::uint32_t coverage);
+  // The covered pixels alone. A batch has invocations of one kind only.
+  void add_covered(std::uint32_t local, std::uint32_t quad, std::uint32_t coverage);
 
-  // Fills inputs, runs the shader, stores nothing yet. Pads with dead quads to whole vectors first.
+  // Fills inputs, runs the shader, stores nothing yet. Pads with dead invocations to whole vectors first.
   void shade(const LocalPrimitive* primitives, StageClock& clock);
-  void clear() { count_ = 0; }
+  void clear();
 
-  std::uint32_t coverage(std::uint32_t quad) const { return coverage_[quad]; }
-  std::uint32_t local(std::uint32_t quad) const { return quads_[quad].local; }
-  // Pixels that the shader kept, of those covered.
-  std::uint32_t kept(std::uint32_t quad) const;
-  float frag_depth(std::uint32_t quad, std::uint32_t pixel) const;
-  // Fewer pixels than were covered are to be stored.
-  void reduce_coverage(std::uint32_t quad, std::uint32_t coverage) { coverage_[quad] = coverage; }
+  // What became of an invocation: whether it was covered and the shader kept it.
+  bool kept(std::uint32_t invocation) const { return kept_[invocation] != 0; }
+  float frag_depth(std::uint32_t invocation) const;
+  // It is not to be stored.
+  void drop(std::uint32_t invocation) { live_[invocation] = 0; }
   // Colours of covered pixels to the tile's RGBA pixels; attributes and unrounded colours, where asked for, to the
   // frame.
   void store(float* tile_color) const;
 
  private:
+  void continue_run(std::uint32_t local);
   void store_narrowed(float* tile_color) const;
   template <class R>
   void store_extras(const R* outputs, const R* inputs) const;
 
-  static constexpr std::uint32_t kStride = 4 * kBatchQuads + 16;
+  static constexpr std::uint32_t kStride = kBatchSize + 16;
 
   const Draw& draw_;
-  std::uint32_t count_ = 0;
-  ShadeQuad quads_[kBatchQuads];
-  std::uint32_t tile_quads_[kBatchQuads], coverage_[kBatchQuads];
+  std::uint32_t tile_x_ = 0, tile_y_ = 0;
+  std::uint32_t count_ = 0, run_count_ = 0;
+  bool all_live_ = true;
+  alignas(64) std::uint32_t pixels_[kStride], live_[kStride];  // of each invocation
+  ShadeRun runs_[kBatchSize];
   std::vector<std::uint8_t> interpolation_, scalars_;
   // Doubles for all numbers: floats use the first half.
   AlignedArray<double> center_x_, center_y_, inputs_, frag_coord_, outputs_, frag_depth_;
-  AlignedArray<std::uint32_t> live_, front_facing_, primitive_id_, kept_;
+  AlignedArray<std::uint32_t> front_facing_, primitive_id_, kept_;
 };
 
 // One worker's tile.
@@ -89,6 +96,11 @@ class TileWorker {
     std::uint16_t coverage;
   };
 
+  struct BatchQuad {
+    CoveredQuad quad;
+    std::uint32_t local;
+  };
+
   void gather_triangles(std::uint32_t tile);
   void shade_visible();  // shade_pass.cpp
   void collect_visible_quads();
@@ -98,11 +110,6 @@ class TileWorker {
   void store_tile();  // store_tile.cpp
   void store_superblock(std::uint32_t first, std::uint32_t x, std::uint32_t y);
   void store_superblock_by_pixels(std::uint32_t first, std::uint32_t x, std::uint32_t y);
-
-  ShadeQuad place(std::uint32_t tile_quad, std::uint32_t local) const {
-    const QuadOffset offset = quad_offset_[tile_quad];
-    return {std::uint16_t(tile_.x + offset.x), std::uint16_t(tile_.y + offset.y), local};
-  }
 
   const Draw& draw_;
   Batch batch_;
@@ -115,10 +122,6 @@ class TileWorker {
   // Of the tile's pixels in memory order, when shading is done; clear where nothing is visible.
   AlignedArray<float> color_;  // RGBA
   AlignedArray<std::uint32_t> primitive_id_;
-  struct QuadOffset {
-    std::uint8_t x, y;
-  };
-  std::vector<QuadOffset> quad_offset_;  // where each quad of the tile's memory is
   std::vector<const RasterTriangle*> triangles_;
   std::vector<std::uint32_t> locals_;
   std::vector<LocalPrimitive> primitives_;
@@ -126,7 +129,7 @@ class TileWorker {
   std::vector<VisibleQuad> found_, sorted_;  // shade_pass.cpp
   std::vector<std::uint32_t> place_of_local_;
   std::vector<CoveredQuad> covered_;  // in_order_pass.cpp
-  std::vector<CoveredQuad> batch_quads_;
+  std::vector<BatchQuad> batch_quads_;
 };
 
 }  // namespace twinshade::tiled

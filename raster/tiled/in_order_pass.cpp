@@ -12,7 +12,7 @@ void TileWorker::shade_in_order() {
   // A fragment that is hidden now stays hidden, since depth only decreases: it need not run, if nobody can tell.
   const bool early_depth_test = !draw_.module.writes_depth && !draw_.module.has_side_effects;
   std::fill_n(color_.data(), 4 * std::size_t(tile_.size) * tile_.size, 0.0f);
-  batch_quads_.resize(kBatchQuads);
+  batch_quads_.resize(kBatchSize / 4);
   covered_.resize(std::size_t(tile_.size) * tile_.size / 4);
   for (std::uint32_t which = 0; which < tile_.count; ++which) {
     std::uint32_t count;
@@ -22,8 +22,8 @@ void TileWorker::shade_in_order() {
     }
     for (std::uint32_t i = 0; i < count; ++i) {
       const CoveredQuad& quad = covered_[i];
-      batch_quads_[batch_.count()] = quad;
-      batch_.add(place(quad.quad, tile_.locals[which]), quad.quad, quad.coverage);
+      batch_quads_[batch_.count() / 4] = {quad, tile_.locals[which]};
+      batch_.add_quad(tile_.locals[which], quad.quad, quad.coverage);
       if (!batch_.full()) continue;
       clock_.lap(Stage::raster);
       resolve_in_order();
@@ -36,20 +36,16 @@ void TileWorker::shade_in_order() {
 
 void TileWorker::resolve_in_order() {
   batch_.shade(primitives_.data(), clock_);
-  for (std::uint32_t q = 0; q < batch_.count(); ++q) {
-    const CoveredQuad& quad = batch_quads_[q];
-    const std::uint32_t kept = batch_.kept(q);
-    std::uint32_t nearer = 0;
-    for (std::uint32_t i = 0; i < 4; ++i) {
-      if (!(kept >> i & 1)) continue;
-      const std::uint32_t pixel = 4 * quad.quad + i;
-      const float depth = draw_.module.writes_depth ? batch_.frag_depth(q, i) : quad.depth[i];
-      if (!(depth < tile_.depth[pixel])) continue;
+  for (std::uint32_t k = 0; k < batch_.count(); ++k) {
+    const BatchQuad& of = batch_quads_[k / 4];
+    const std::uint32_t pixel = 4 * of.quad.quad + k % 4;
+    const float depth = draw_.module.writes_depth ? batch_.frag_depth(k) : of.quad.depth[k % 4];
+    if (batch_.kept(k) && depth < tile_.depth[pixel]) {
       tile_.depth[pixel] = depth;
-      tile_.visible[pixel] = batch_.local(q);
-      nearer |= 1u << i;
+      tile_.visible[pixel] = of.local;
+    } else {
+      batch_.drop(k);
     }
-    batch_.reduce_coverage(q, nearer);
   }
   batch_.store(color_.data());
   batch_.clear();

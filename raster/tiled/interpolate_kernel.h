@@ -1,4 +1,4 @@
-// Shader inputs of quads. Quads of one primitive follow each other, so its vertex data is broadcast; runs are written
+// Shader inputs. Invocations of one primitive follow each other, so its vertex data is broadcast; runs are written
 // in order in whole vectors, each run's last one spilling into the next run's place before that is written.
 #pragma once
 
@@ -25,13 +25,13 @@ TWINSHADE_INLINE R flat_value(float stored, std::uint8_t scalar) {
 }
 
 template <class F>
-class QuadInterpolator {
+class Interpolator {
   using R = typename F::element;
   using U = typename F::template with<std::uint32_t>;
   static constexpr std::uint32_t kWidth = F::width;
 
  public:
-  TWINSHADE_INLINE explicit QuadInterpolator(const InterpolateQuads& call)
+  TWINSHADE_INLINE explicit Interpolator(const Interpolate& call)
       : call_(call),
         center_x_(static_cast<R*>(call.center_x)),
         center_y_(static_cast<R*>(call.center_y)),
@@ -39,35 +39,40 @@ class QuadInterpolator {
         frag_coord_(static_cast<R*>(call.frag_coord)) {}
 
   TWINSHADE_INLINE void run() {
-    for (std::uint32_t q = 0; q < call_.count; ++q) {
-      const R x = R(call_.quads[q].x) + R(0.5), y = R(call_.quads[q].y) + R(0.5);
-      for (std::uint32_t i = 0; i < 4; ++i) {
-        center_x_[4 * q + i] = x + R(i & 1);
-        center_y_[4 * q + i] = y + R(i >> 1);
-      }
-    }
-    for (std::uint32_t i = 4 * call_.count; i < 4 * call_.count + 16; ++i) {
-      center_x_[i] = R(0.5);
-      center_y_[i] = R(0.5);
-    }
-    for (std::uint32_t begin = 0; begin < call_.count;) {
-      std::uint32_t end = begin + 1;
-      while (end < call_.count && call_.quads[end].local == call_.quads[begin].local) ++end;
-      const LocalPrimitive& primitive = call_.primitives[call_.quads[begin].local];
+    find_centers();
+    for (std::uint32_t r = 0; r < call_.run_count; ++r) {
+      const std::uint32_t begin = call_.runs[r].first,
+                          end = r + 1 < call_.run_count ? call_.runs[r + 1].first : call_.count;
+      const LocalPrimitive& primitive = call_.primitives[call_.runs[r].local];
       if (call_.native)
-        native(primitive, 4 * begin, 4 * end);
+        native(primitive, begin, end);
       else
-        exact(primitive, 4 * begin, 4 * end);
-      begin = end;
+        exact(primitive, begin, end);
     }
     if (frag_coord_)
-      for (std::uint32_t i = 0; i < 4 * call_.count; ++i) {
+      for (std::uint32_t i = 0; i < call_.count; ++i) {
         frag_coord_[i] = center_x_[i];
         frag_coord_[call_.stride + i] = center_y_[i];
       }
   }
 
  private:
+  // From the order of pixels in a tile's memory (kernels.h).
+  TWINSHADE_INLINE void find_centers() {
+    const U tile_x(call_.tile_x), tile_y(call_.tile_y), superblock_mask((1u << call_.superblocks_log) - 1);
+    std::uint32_t i = 0;
+    for (; i < call_.count; i += kWidth) {
+      const U pixel = U::load(call_.pixels + i), superblock = pixel >> U(8u);
+      const U x = (pixel & U(1u)) | (pixel >> U(1u) & U(2u)) | (pixel >> U(2u) & U(12u)) |
+                  (superblock & superblock_mask) << U(4u);
+      const U y = (pixel >> U(1u) & U(1u)) | (pixel >> U(2u) & U(2u)) | (pixel >> U(4u) & U(12u)) |
+                  superblock >> U(call_.superblocks_log) << U(4u);
+      ((tile_x + x).template to<std::int32_t>().template to<R>() + F(R(0.5))).store(center_x_ + i);
+      ((tile_y + y).template to<std::int32_t>().template to<R>() + F(R(0.5))).store(center_y_ + i);
+    }
+    for (; i < call_.count + 16; ++i) center_x_[i] = center_y_[i] = R(0.5);
+  }
+
   TWINSHADE_INLINE void exact(const LocalPrimitive& primitive, std::uint32_t begin, std::uint32_t end) {
     const VertexData& vertices = *call_.vertices;
     const ExactTriangle<F> triangle(vertices, primitive.primitive);
@@ -133,7 +138,7 @@ class QuadInterpolator {
     }
   }
 
-  const InterpolateQuads& call_;
+  const Interpolate& call_;
   R* const center_x_;
   R* const center_y_;
   R* const inputs_;
@@ -141,8 +146,8 @@ class QuadInterpolator {
 };
 
 template <class F>
-void interpolate(const InterpolateQuads& call) {
-  QuadInterpolator<F>(call).run();
+void interpolate(const Interpolate& call) {
+  Interpolator<F>(call).run();
 }
 
 }  // namespace TWINSHADE_ISA_NAMESPACE

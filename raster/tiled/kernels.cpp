@@ -11,7 +11,7 @@ namespace {
 
 template <int W>
 constexpr Kernels lanes_kernels(Number number) {
-  return {Isa::TWINSHADE_ISA, number, cover<W>, cover_one<W>, interpolate<Simd<float, W>>, store_quads};
+  return {Isa::TWINSHADE_ISA, number, cover<W>, cover_one<W>, interpolate<Simd<float, W>>, store_colors};
 }
 
 constexpr Kernels kList[] = {
@@ -25,10 +25,10 @@ constexpr Kernels kList[] = {
     lanes_kernels<16>(Number::lanes16),
 #endif
 #if TWINSHADE_NUMBERS & 8
-    {Isa::TWINSHADE_ISA, Number::scalar, cover<4>, cover_one<4>, interpolate<Simd<float, 4>>, store_quads},
+    {Isa::TWINSHADE_ISA, Number::scalar, cover<4>, cover_one<4>, interpolate<Simd<float, 4>>, store_colors},
 #endif
 #if TWINSHADE_NUMBERS & 16
-    {Isa::TWINSHADE_ISA, Number::float64, cover<4>, cover_one<4>, interpolate<Plain<double, 4>>, store_quads},
+    {Isa::TWINSHADE_ISA, Number::float64, cover<4>, cover_one<4>, interpolate<Plain<double, 4>>, store_colors},
 #endif
 };
 

@@ -53,15 +53,20 @@ struct CoveredQuad {
   float depth[4];          // where covered
 };
 
-struct ShadeQuad {
-  std::uint16_t x, y;   // its lower left pixel, in the frame
+// Invocations of one primitive follow each other: a run, up to the next one's first.
+struct ShadeRun {
   std::uint32_t local;  // index into the tile's LocalPrimitives
+  std::uint32_t first;  // invocation
 };
 
-// Inputs of the invocations of `count` quads. Arrays are structures of arrays with room for 16 elements past 4 * count.
-struct InterpolateQuads {
-  const ShadeQuad* quads;
+// Inputs of `count` invocations. Arrays are structures of arrays with room for 16 elements past `count`.
+struct Interpolate {
+  const std::uint32_t* pixels;  // of each invocation, index in the tile's memory
   std::uint32_t count;
+  std::uint32_t tile_x, tile_y;   // the tile's lower left pixel, in the frame
+  std::uint32_t superblocks_log;  // log2 of the tile's superblocks in a row
+  const ShadeRun* runs;
+  std::uint32_t run_count;
   const LocalPrimitive* primitives;
   const VertexData* vertices;
   const std::uint8_t* interpolation;  // Interpolation of each input component
@@ -75,11 +80,11 @@ struct InterpolateQuads {
   std::uint32_t* front_facing;  // or null
 };
 
-// Colours of `count` quads, which are in structures of arrays, to a tile's memory.
-struct StoreQuads {
-  const float* channels[4];         // 4 * count floats each, with room for 16 more; null: 0
-  const std::uint32_t* tile_quads;  // of each quad, index in the tile's memory / 4
-  const std::uint32_t* coverage;    // bit i: pixel i of the quad is stored
+// Colours of `count` invocations, which are in structures of arrays, to a tile's memory.
+struct StoreColors {
+  const float* channels[4];     // with room for 16 elements past `count`; null: 0
+  const std::uint32_t* pixels;  // of each invocation, index in the tile's memory
+  const std::uint32_t* stored;  // of each, ~0u or 0; null: all are
   std::uint32_t count;
   float* color;  // of the tile: RGBA of each pixel
 };
@@ -92,8 +97,8 @@ struct Kernels {
   // Covers triangle `which` alone. With early_depth_test, pixels that fail it now are left out. Returns how many quads
   // it wrote.
   std::uint32_t (*cover_one)(const CoverTile&, std::uint32_t which, bool early_depth_test, CoveredQuad* out);
-  void (*interpolate)(const InterpolateQuads&);
-  void (*store_quads)(const StoreQuads&);
+  void (*interpolate)(const Interpolate&);
+  void (*store_colors)(const StoreColors&);
 };
 
 // Coverage and depth are those of float whatever the number; float64 differs in `interpolate` only.

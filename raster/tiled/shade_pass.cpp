@@ -1,5 +1,6 @@
 // Shading from a visibility buffer (Burns and Hunt, The visibility buffer, JCGT 2013): once all triangles of a tile
-// have been covered, each 2 x 2 quad is shaded once for each primitive visible in it.
+// have been covered, each pixel is shaded once. Where the shader has derivatives, whole 2 x 2 quads are, once for each
+// primitive visible in them.
 #include <algorithm>
 
 #include "cpu_shaders/runtime/denormals.h"
@@ -46,10 +47,14 @@ void TileWorker::shade_visible() {
   collect_visible_quads();
   clock_.lap(Stage::raster);
 
-  for (std::size_t begin = 0; begin < sorted_.size(); begin += kBatchQuads) {
-    const std::size_t end = std::min(sorted_.size(), begin + kBatchQuads);
-    for (std::size_t i = begin; i < end; ++i)
-      batch_.add(place(sorted_[i].quad, sorted_[i].local), sorted_[i].quad, sorted_[i].coverage);
+  const bool whole_quads = draw_.module.uses_derivatives;
+  for (std::size_t i = 0; i < sorted_.size();) {
+    if (whole_quads)
+      for (; i < sorted_.size() && !batch_.full(); ++i)
+        batch_.add_quad(sorted_[i].local, sorted_[i].quad, sorted_[i].coverage);
+    else
+      for (; i < sorted_.size() && !batch_.full(); ++i)
+        batch_.add_covered(sorted_[i].local, sorted_[i].quad, sorted_[i].coverage);
     batch_.shade(primitives_.data(), clock_);
     batch_.store(color_.data());
     batch_.clear();

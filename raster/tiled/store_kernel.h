@@ -8,18 +8,8 @@
 namespace twinshade::tiled {
 inline namespace TWINSHADE_ISA_NAMESPACE {
 
-// [m]: ~0 in the four channels of pixel i where bit i of m is set.
-struct PixelMasks {
-  alignas(64) std::uint32_t of[16][4][4];
-  constexpr PixelMasks() : of{} {
-    for (std::uint32_t m = 0; m < 16; ++m)
-      for (std::uint32_t k = 0; k < 16; ++k) of[m][k / 4][k % 4] = m >> (k / 4) & 1 ? ~0u : 0u;
-  }
-};
-inline constexpr PixelMasks kPixelMasks;
-
-// One quad is four neighbours in both memories. No branches: which pixels are covered cannot be predicted.
-inline void store_quads(const StoreQuads& call) {
+template <bool all>
+TWINSHADE_INLINE void store_colors_if(const StoreColors& call) {
   using U4 = Register<std::uint32_t, 4>;
   static constexpr float kZeros[4] = {};
   const float* channels[4];
@@ -28,23 +18,38 @@ inline void store_quads(const StoreQuads& call) {
     channels[c] = call.channels[c] ? call.channels[c] : kZeros;
     step[c] = call.channels[c] ? 1 : 0;
   }
-  const std::uint32_t* const tile_quads = call.tile_quads;
-  const std::uint32_t* const coverage = call.coverage;
+  const std::uint32_t* const pixels = call.pixels;
+  const std::uint32_t* const stored = call.stored;
   float* const color = call.color;
-  for (std::uint32_t q = 0, count = call.count; q < count; ++q) {
-    Float4 pixels[4];
-    for (int c = 0; c < 4; ++c) pixels[c] = registers::load_texel(channels[c], q * step[c]);
-    registers::transpose_groups(pixels);
-    float* const to = color + 16 * std::size_t{tile_quads[q]};
-    for (int i = 0; i < 4; ++i) {
-      U4 mask, before, after;
-      std::memcpy(&mask, kPixelMasks.of[coverage[q]][i], sizeof mask);
-      std::memcpy(&before, to + 4 * i, sizeof before);
-      std::memcpy(&after, &pixels[i], sizeof after);
+  const auto store = [&](std::uint32_t i, const Float4& rgba) TWINSHADE_LAMBDA {
+    float* const to = color + 4 * std::size_t{pixels[i]};
+    if constexpr (all) {
+      std::memcpy(to, &rgba, sizeof rgba);
+    } else {  // no branches: which ones are stored cannot be predicted
+      const U4 mask = registers::splat<std::uint32_t, 4>(stored[i]);
+      U4 before, after;
+      std::memcpy(&before, to, sizeof before);
+      std::memcpy(&after, &rgba, sizeof after);
       after = (after & mask) | (before & ~mask);
-      std::memcpy(to + 4 * i, &after, sizeof after);
+      std::memcpy(to, &after, sizeof after);
     }
+  };
+  for (std::uint32_t begin = 0, count = call.count; begin < count; begin += 4) {
+    Float4 rgba[4];
+    for (int c = 0; c < 4; ++c) rgba[c] = registers::load_texel(channels[c], begin / 4 * step[c]);
+    registers::transpose_groups(rgba);
+    if (begin + 4 <= count)
+      for (std::uint32_t i = 0; i < 4; ++i) store(begin + i, rgba[i]);
+    else
+      for (std::uint32_t i = 0; begin + i < count; ++i) store(begin + i, rgba[i]);
   }
+}
+
+inline void store_colors(const StoreColors& call) {
+  if (call.stored)
+    store_colors_if<false>(call);
+  else
+    store_colors_if<true>(call);
 }
 
 }  // namespace TWINSHADE_ISA_NAMESPACE

@@ -17,12 +17,6 @@ TileWorker::TileWorker(const Draw& draw)
   tile_.frame_height = draw.grid.frame_height;
   tile_.depth = depth_.data();
   tile_.visible = visible_.data();
-  const std::uint32_t superblocks = tile_.size / kSuperblock;
-  for (std::uint32_t q = 0; q < tile_.size * tile_.size / 4; ++q) {
-    const std::uint32_t superblock = q / 64, block = q / 4 % 16, quad = q % 4;
-    quad_offset_.push_back({std::uint8_t(superblock % superblocks * 16 + block % 4 * 4 + quad % 2 * 2),
-                            std::uint8_t(superblock / superblocks * 16 + block / 4 * 4 + quad / 2 * 2)});
-  }
 }
 
 void TileWorker::draw_tile(std::uint32_t tile) {
@@ -32,6 +26,7 @@ void TileWorker::draw_tile(std::uint32_t tile) {
   const std::size_t pixels = std::size_t(tile_.size) * tile_.size;
   std::fill_n(tile_.depth, pixels, 1.0f);
   std::fill_n(tile_.visible, pixels, kNotVisible);
+  batch_.begin_tile(tile_.x, tile_.y);
   gather_triangles(tile);
   if (tile_.count > 0) {
     if (draw_.in_order())

@@ -279,11 +279,13 @@ void add_cpu_options(CLI::App& command, CpuOptions& options) {
     if (text != "4" && text != "8" && text != "16") throw UserError("--lanes " + text + ": must be 4, 8 or 16");
     options.number = parse_number("lanes" + text);
   });
-  add_parsed(command, "--tile", "16|32|64|128", "tile size of the CPU (default: 64)", [&](const std::string& text) {
-    if (text != "16" && text != "32" && text != "64" && text != "128")
-      throw UserError("--tile " + text + ": must be 16, 32, 64 or 128");
-    parse_whole(text, options.tile_size);
-  });
+  add_parsed(command, "--tile", "16|32|64|128",
+             "tile size of the CPU (default: 128 where threads have many such tiles, else 64)",
+             [&](const std::string& text) {
+               if (text != "16" && text != "32" && text != "64" && text != "128")
+                 throw UserError("--tile " + text + ": must be 16, 32, 64 or 128");
+               parse_whole(text, options.tile_size);
+             });
   command.get_option("--lanes")->excludes(command.get_option("--number"));
 }
 

@@ -83,7 +83,7 @@ struct ShadingOptions {
 struct CpuOptions {
   std::optional<Isa> isa;
   std::optional<Number> number;
-  int tile_size = 64;
+  int tile_size = 0;
 };
 
 void add_common_options(CLI::App& command, CommonOptions& options);

@@ -49,7 +49,7 @@ struct DrawOptions {
   int repeat = 1;              // draw this many times (benchmark); milliseconds then holds the median of each stage
   int warmup = 0;
   // cpu only
-  int tile_size = 64;          // 16, 32, 64 or 128
+  int tile_size = 0;           // 16, 32, 64 or 128; 0: the renderer chooses
   Number number = Number::lanes16;
   std::optional<Isa> isa;      // unset: the best that the machine and the module have
   // gl only

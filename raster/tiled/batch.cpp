@@ -1,37 +1,19 @@
-#include <array>
 #include <bit>
-#include <cstring>
 #include <optional>
 
 #include "cpu_shaders/runtime/denormals.h"
-#include "cpu_shaders/runtime/simd_lanes.h"
 #include "raster/tiled/draw.h"
 
 namespace twinshade::tiled {
-namespace {
+const Batch::QuadPixels Batch::kQuadPixels[16] = {
+    {{0, 0, 0, 0}, 0}, {{0, 0, 0, 0}, 1}, {{1, 0, 0, 0}, 1}, {{0, 1, 0, 0}, 2}, {{2, 0, 0, 0}, 1}, {{0, 2, 0, 0}, 2},
+    {{1, 2, 0, 0}, 2}, {{0, 1, 2, 0}, 3}, {{3, 0, 0, 0}, 1}, {{0, 3, 0, 0}, 2}, {{1, 3, 0, 0}, 2}, {{0, 1, 3, 0}, 3},
+    {{2, 3, 0, 0}, 2}, {{0, 2, 3, 0}, 3}, {{1, 2, 3, 0}, 3}, {{0, 1, 2, 3}, 4}};
 
-// [m][i]: ~0 where bit i of m is set.
-constexpr std::array<std::array<std::uint32_t, 4>, 16> make_lane_masks() {
-  std::array<std::array<std::uint32_t, 4>, 16> masks{};
-  for (std::size_t m = 0; m < 16; ++m)
-    for (std::size_t i = 0; i < 4; ++i) masks[m][i] = m >> i & 1 ? ~0u : 0u;
-  return masks;
-}
-constexpr auto kLaneMasks = make_lane_masks();
-
-// [m]: the bits that are set in m, the lowest first.
-constexpr std::array<std::array<std::uint32_t, 4>, 16> make_set_bits() {
-  std::array<std::array<std::uint32_t, 4>, 16> bits{};
-  for (std::size_t m = 0; m < 16; ++m)
-    for (std::uint32_t i = 0, count = 0; i < 4; ++i)
-      if (m >> i & 1) bits[m][count++] = i;
-  return bits;
-}
-constexpr auto kSetBits = make_set_bits();
-
-using U4 = Simd<std::uint32_t, 4>;
-
-}  // namespace
+const std::uint32_t Batch::kLaneMasks[16][4] = {
+    {0, 0, 0, 0},     {~0u, 0, 0, 0},     {0, ~0u, 0, 0},     {~0u, ~0u, 0, 0},    {0, 0, ~0u, 0},   {~0u, 0, ~0u, 0},
+    {0, ~0u, ~0u, 0}, {~0u, ~0u, ~0u, 0}, {0, 0, 0, ~0u},     {~0u, 0, 0, ~0u},    {0, ~0u, 0, ~0u}, {~0u, ~0u, 0, ~0u},
+    {0, 0, ~0u, ~0u}, {~0u, 0, ~0u, ~0u}, {0, ~0u, ~0u, ~0u}, {~0u, ~0u, ~0u, ~0u}};
 
 Batch::Batch(const Draw& draw)
     : draw_(draw),
@@ -51,25 +33,6 @@ Batch::Batch(const Draw& draw)
 void Batch::begin_tile(std::uint32_t x, std::uint32_t y) {
   tile_x_ = x;
   tile_y_ = y;
-}
-
-void Batch::continue_run(std::uint32_t local) {
-  if (run_count_ == 0 || runs_[run_count_ - 1].local != local) runs_[run_count_++] = {local, count_};
-}
-
-void Batch::add_quad(std::uint32_t local, std::uint32_t quad, std::uint32_t coverage) {
-  continue_run(local);
-  (U4(4 * quad) + U4::load(kSetBits[15].data())).store(pixels_ + count_);
-  U4::load(kLaneMasks[coverage].data()).store(live_ + count_);
-  all_live_ = false;
-  count_ += 4;
-}
-
-void Batch::add_covered(std::uint32_t local, std::uint32_t quad, std::uint32_t coverage) {
-  continue_run(local);
-  (U4(4 * quad) + U4::load(kSetBits[coverage].data())).store(pixels_ + count_);
-  U4(~0u).store(live_ + count_);
-  count_ += std::uint32_t(std::popcount(coverage));
 }
 
 void Batch::clear() {

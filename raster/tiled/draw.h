@@ -1,6 +1,7 @@
 // What is the same for all tiles of a draw, and what each worker thread has of its own.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -44,9 +45,18 @@ class Batch {
   // No room for another quad.
   bool full() const { return count_ + 4 > kBatchSize; }
   // All four pixels of a quad. quad: index in the tile's memory / 4; coverage: bit i for its pixel i.
-  void add_quad(std::uint32_t local, std::uint32_t quad, std::uint32_t coverage);
+  void add_quad(std::uint32_t local, std::uint32_t quad, std::uint32_t coverage) {
+    add(local, quad, kQuadPixels[15]);
+    std::copy_n(kLaneMasks[coverage], 4, live_ + count_);
+    all_live_ = false;
+    count_ += 4;
+  }
   // The covered pixels alone. A batch has invocations of one kind only.
-  void add_covered(std::uint32_t local, std::uint32_t quad, std::uint32_t coverage);
+  void add_covered(std::uint32_t local, std::uint32_t quad, std::uint32_t coverage) {
+    add(local, quad, kQuadPixels[coverage]);
+    std::copy_n(kLaneMasks[15], 4, live_ + count_);
+    count_ += kQuadPixels[coverage].count;
+  }
 
   // Fills inputs, runs the shader, stores nothing yet. Pads with dead invocations to whole vectors first.
   void shade(const LocalPrimitive* primitives, StageClock& clock);
@@ -62,7 +72,18 @@ class Batch {
   void store(float* tile_color) const;
 
  private:
-  void continue_run(std::uint32_t local);
+  // [m]: the bits that are set in m, the lowest first, and how many.
+  struct QuadPixels {
+    std::uint32_t of[4], count;
+  };
+  static const QuadPixels kQuadPixels[16];
+  // [m][i]: ~0 where bit i of m is set.
+  static const std::uint32_t kLaneMasks[16][4];
+
+  void add(std::uint32_t local, std::uint32_t quad, const QuadPixels& which) {
+    if (run_count_ == 0 || runs_[run_count_ - 1].local != local) runs_[run_count_++] = {local, count_};
+    for (std::uint32_t i = 0; i < 4; ++i) pixels_[count_ + i] = 4 * quad + which.of[i];
+  }
   void store_narrowed(float* tile_color) const;
   template <class R>
   void store_extras(const R* outputs, const R* inputs) const;
@@ -90,12 +111,6 @@ class TileWorker {
   std::uint32_t tiles_shaded() const { return tiles_shaded_; }
 
  private:
-  struct VisibleQuad {
-    std::uint32_t local;
-    std::uint16_t quad;  // index in the tile's memory / 4
-    std::uint16_t coverage;
-  };
-
   struct BatchQuad {
     CoveredQuad quad;
     std::uint32_t local;
@@ -103,7 +118,8 @@ class TileWorker {
 
   void gather_triangles(std::uint32_t tile);
   void shade_visible();  // shade_pass.cpp
-  void collect_visible_quads();
+  void collect_visible();
+  void shade_batch();
   void shade_in_order();  // in_order_pass.cpp
   void resolve_in_order();
   void name_primitives();
@@ -126,7 +142,7 @@ class TileWorker {
   std::vector<std::uint32_t> locals_;
   std::vector<LocalPrimitive> primitives_;
 
-  std::vector<VisibleQuad> found_, sorted_;  // shade_pass.cpp
+  std::vector<VisibleBlock> found_, sorted_;  // shade_pass.cpp
   std::vector<std::uint32_t> place_of_local_;
   std::vector<CoveredQuad> covered_;  // in_order_pass.cpp
   std::vector<BatchQuad> batch_quads_;

@@ -53,6 +53,23 @@ struct CoveredQuad {
   float depth[4];          // where covered
 };
 
+// Where one primitive is visible in a 4 x 4 block.
+struct VisibleBlock {
+  std::uint32_t local;     // index into the tile's LocalPrimitives
+  std::uint16_t block;     // index in the tile's memory / 16
+  std::uint16_t coverage;  // bit i: pixel i of the block
+};
+
+// What a tile shows, once all its triangles are covered.
+struct CollectVisible {
+  const CoverTile* tile;
+  VisibleBlock* found;          // out: block by block; room for one a pixel
+  std::uint32_t* counts;        // [local + 1] grows by the number of blocks found for it
+  std::uint32_t* primitive_id;  // out: of each pixel
+  std::uint32_t no_primitive;   // what it is where nothing is visible
+  float* color;                 // of the tile; zeros in blocks that are not filled
+};
+
 // Invocations of one primitive follow each other: a run, up to the next one's first.
 struct ShadeRun {
   std::uint32_t local;  // index into the tile's LocalPrimitives
@@ -97,6 +114,8 @@ struct Kernels {
   // Covers triangle `which` alone. With early_depth_test, pixels that fail it now are left out. Returns how many quads
   // it wrote.
   std::uint32_t (*cover_one)(const CoverTile&, std::uint32_t which, bool early_depth_test, CoveredQuad* out);
+  // Returns how many blocks it found.
+  std::uint32_t (*collect_visible)(const CollectVisible&);
   void (*interpolate)(const Interpolate&);
   void (*store_colors)(const StoreColors&);
 };

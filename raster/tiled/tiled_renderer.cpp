@@ -59,6 +59,16 @@ StageMilliseconds draw_frame(const Draw& draw, std::vector<std::unique_ptr<TileW
   return stages;
 }
 
+// Fewer triangles are in several tiles when tiles are large; with few tiles threads wait for the last one. What a
+// shader writes to buffers depends on the size of tiles, so there it must not depend on threads.
+int choose_tile_size(const Bundle& bundle, const ShaderModule& module, int wanted) {
+  constexpr std::uint32_t kTilesForEachThread = 32;
+  if (wanted != 0) return wanted;
+  const bool many =
+      make_grid(bundle.width, bundle.height, 128).count() >= kTilesForEachThread * std::uint32_t(thread_count());
+  return many && !module.has_side_effects ? 128 : 64;
+}
+
 double median(std::vector<double> values) {
   const std::size_t middle = values.size() / 2;
   std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(middle), values.end());
@@ -92,6 +102,7 @@ Frame draw_tiled(const Bundle& bundle, const ShaderModule& module, const DrawOpt
   Frame frame;
   allocate(frame, bundle, bound, options, entry.number == Number::float64);
 
+  const int tile_size = choose_tile_size(bundle, module, options.tile_size);
   const auto [viewport_width, viewport_height] = viewport_size(bundle.width, bundle.height);
   Geometry geometry;
   const Draw draw{bundle,
@@ -100,7 +111,7 @@ Frame draw_tiled(const Bundle& bundle, const ShaderModule& module, const DrawOpt
                   bound,
                   entry,
                   choose_kernels(entry.isa, entry.number),
-                  make_grid(bundle.width, bundle.height, options.tile_size),
+                  make_grid(bundle.width, bundle.height, tile_size),
                   {bundle.clip_positions.data(), bundle.indices.data(), bound.vertex_inputs.data(),
                    bound.input_components, 2.0f / float(viewport_width), 2.0f / float(viewport_height)},
                   geometry,
@@ -125,12 +136,9 @@ Frame draw_tiled(const Bundle& bundle, const ShaderModule& module, const DrawOpt
   frame.milliseconds.emplace_back("draw", median(times[kStageCount]));
 
   for (const auto& worker : workers) frame.distinct_threads += worker->tiles_shaded() > 0;
-  frame.provenance = {{"renderer", "twinshade tiled"},
-                      {"isa", isa_name(entry.isa)},
-                      {"number", number_name(entry.number)},
-                      {"threads", std::to_string(thread_count())},
-                      {"tile_size", std::to_string(options.tile_size)},
-                      {"shader", module.source_hash}};
+  frame.provenance = {{"renderer", "twinshade tiled"},          {"isa", isa_name(entry.isa)},
+                      {"number", number_name(entry.number)},    {"threads", std::to_string(thread_count())},
+                      {"tile_size", std::to_string(tile_size)}, {"shader", module.source_hash}};
   return frame;
 }
 

@@ -68,13 +68,13 @@ Texture light_table_texture(const std::string& name, const LightTables& tables, 
     return tables.values.data() + (row * 3 + c) * tables.texels;
   };
   if (packing == TexturePacking::layers) {
-    // The mean's map is alone in its four, and the last four are filled up with nothing, unless there is but one map.
-    const std::size_t maps = tables.rows == 1 ? 1 : ((mean ? tables.rows + 3 : tables.rows) + 3) / 4 * 4;
+    // The last five maps are filled up with nothing, unless there is but one map.
+    const std::size_t maps = tables.rows == 1 ? 1 : (tables.rows + 4) / 5 * 5;
     const std::size_t texels = size * size;
     Texture texture = layered_texture(name, std::uint32_t(width), maps * layers);
     for (std::size_t row = 0; row < tables.rows; ++row)
       for (std::size_t t = 0; t < tables.texels; ++t) {
-        const std::size_t layer = t / texels * maps + (mean && row > 0 ? row + 3 : row);
+        const std::size_t layer = t / texels * maps + row;
         float* texel = texture.texels.data() + (layer * texels + t % texels) * 4;
         for (std::size_t c = 0; c < 3; ++c) texel[c] = values(row, c)[t];
         texel[3] = 1;

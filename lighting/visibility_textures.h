@@ -22,10 +22,9 @@ Texture weights_texture(const std::string& name, std::uint32_t size, std::size_t
 // Quads of weights that such a texture has.
 std::uint32_t stored_quads(const Texture& weights);
 
-// layers: RGB of map m, layer l at layer l * maps + m, A is 1; map 0 is the mean's, the components' begin at 4; without a
-// mean row r is map r; maps are filled up to fours, unless there is but one. dx9: bands of layers side by side
-// (technique/light_tables_packed.glsl); mean: row 0 is the mean's, whose weight is 1. UserError where the packed
-// texture would be wider or higher than kWidestTexture.
+// layers: RGB of map m, layer l at layer l * maps + m, A is 1; row r is map r; maps are filled up to fives, unless
+// there is but one. dx9: bands of layers side by side (technique/light_tables_packed.glsl); mean: row 0 is the mean's,
+// whose weight is 1. UserError where the packed texture would be wider or higher than kWidestTexture.
 Texture light_table_texture(const std::string& name, const LightTables& tables, const SphereMapInfo& map, int width,
                             bool mean, TexturePacking packing);
 

@@ -25,8 +25,9 @@ inline constexpr ServedFunction kServedFunctions[] = {
     {"exact_fetch", "vec4", "sampler2D,ExactTaps"},
     {"exact_fetch", "vec4", "sampler2DArray,ExactTaps,int"},
     {"exact_fetch_4", "mat4x4", "sampler2DArray,ExactTaps,int"},
+    {"exact_fetch_5", "vec3[5]", "sampler2DArray,ExactTaps,int"},
     {"sphere_map_fetch", "vec4", "sampler2DArray,SphereMapTaps,int,int"},
-    {"sphere_map_fetch_4", "mat4x4", "sampler2DArray,SphereMapTaps,int,int"},
+    {"sphere_map_fetch_5", "vec3[5]", "sampler2DArray,SphereMapTaps,int,int"},
     {"exact_fetch_pair", "mat2x4", "sampler2DArray,sampler2DArray,ExactTaps,int"},
 };
 

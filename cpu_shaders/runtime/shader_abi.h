@@ -10,7 +10,7 @@
 
 namespace twinshade {
 
-inline constexpr std::uint32_t kAbiVersion = 4;
+inline constexpr std::uint32_t kAbiVersion = 5;
 
 // What a piece of translated code was built for. The numbers are an order: a machine that has avx512 has all before it.
 enum class Isa : std::uint8_t { baseline = 0, avx2 = 1, avx512 = 2 };  // baseline: x86-64-v2, or AArch64 with NEON
@@ -40,14 +40,17 @@ struct ShaderUniform {  // a leaf of a uniform outside any block: structs are fl
 
 enum class ResourceKind : std::uint8_t { uniform_block, storage_buffer, sampler_2d, sampler_2d_array, sampler_cube };
 
+// How the layers of an array texture should lie: one after another; all of a texel's side by side, RGBA; the same, but
+// RGB alone, five layers to 16 floats, of which the last is not used.
+enum class LayerOrder : std::uint8_t { apart, together, colors_together };
+
 struct ShaderResource {
   const char* name;  // block name, or sampler name ("maps[2]" for an element of a sampler array)
   ResourceKind kind;
   std::uint32_t slot;          // index into ShaderData::textures or ::buffers
   std::uint32_t minimum_size;  // bytes that a block needs at least
   bool read_only;
-  bool layers_together =
-      false;  // sampler: several layers are read at once at the same texel, so they should lie side by side
+  LayerOrder layer_order = LayerOrder::apart;
   std::int32_t beside =
       -1;  // sampler: slot of another whose texels are read together with this one's, if their sizes are equal
 };
@@ -55,12 +58,13 @@ struct ShaderResource {
 struct TextureView {    // RGBA32F
   const float* texels;  // texel (0,0) of layer 0
   std::int32_t width, height, layers;
-  std::ptrdiff_t row_pitch, layer_pitch;  // floats; multiples of 4, as texel_pitch
+  std::ptrdiff_t row_pitch, layer_pitch;  // floats; multiples of 4, as texel_pitch, but for LayerOrder::colors_together
   TextureKind kind;
   Filter filter;
   Wrap wrap;
-  std::ptrdiff_t texel_pitch =
-      4;  // floats from texel x to x + 1. Above 4: all layers of a texel lie side by side, layer_pitch 4
+  // Floats from texel x to x + 1. Above 4: all layers of a texel lie side by side, layer_pitch 4; or, with layer_pitch
+  // 3, as LayerOrder::colors_together says, which exact_fetch_5 and sphere_map_fetch_5 alone can read.
+  std::ptrdiff_t texel_pitch = 4;
 };
 
 struct BufferView {
@@ -84,8 +88,8 @@ struct ComputeCall {
   void* barrier_context;
 };
 
-// A block of fragment invocations. Invocations 4q .. 4q+3 are one 2 x 2 quad: (x,y) (x+1,y) (x,y+1) (x+1,y+1), x and y
-// even. count is a multiple of 16; pad with dead quads (live = 0, any finite inputs). Arrays are structures of arrays:
+// A block of fragment invocations. With derivatives, 4q .. 4q+3 are a quad: (x,y) (x+1,y) (x,y+1) (x+1,y+1), x and y
+// even. count is a multiple of 16; pad with dead ones (live = 0, any finite inputs). Arrays are structures of arrays:
 // component c of invocation i is at [c * stride + i]; 64-byte aligned, stride a multiple of 16. "real" is float, or
 // double for Number::float64. In a float array integers are bit patterns; in a double array they are their value, and
 // so are booleans (0 or 1).

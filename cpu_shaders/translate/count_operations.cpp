@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "cpu_shaders/translate/compile_glsl.h"
 #include "cpu_shaders/translate/function_info.h"
+#include "cpu_shaders/translate/served.h"
 #include "cpu_shaders/translate/trip_count.h"
 
 namespace twinshade {
@@ -34,7 +35,12 @@ class Counter {
     const FunctionInfo& info = program_.info(id);
     if (info.function->name == free_) return counts_[id];
     StoredConstants stored;
-    const OperationCount count = list(info, info.body.list, stored);
+    OperationCount count = list(info, info.body.list, stored);
+    if (fetches_five_colors(program_.module, *info.function)) {  // as served: 16 floats from each of four places
+      count.texels = 16;
+      count.multiplications = 64;
+      count.additions = 48;
+    }
     return counts_[id] = count;
   }
 

@@ -89,7 +89,7 @@ std::string reflection_text(const Reflection& r, const ShaderSource& source, con
   for (const auto& x : r.resources)
     resources.push_back(quoted(x.name) + ", " + kind_name(x.kind) + ", " + std::to_string(x.slot) + ", " +
                         std::to_string(x.minimum_size) + ", " + boolean(x.read_only) + ", " +
-                        boolean(x.layers_together) + ", " + std::to_string(x.beside));
+                        "LayerOrder(" + std::to_string(int(x.layer_order)) + ")" + ", " + std::to_string(x.beside));
   table("ShaderUniform", "kUniforms", uniforms);
   table("ShaderResource", "kResources", resources);
 

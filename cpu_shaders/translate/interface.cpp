@@ -229,7 +229,7 @@ class Describer {
         r.name = name + suffix;
         r.kind = kind;
         r.slot = reflection_.texture_count++;
-        r.layers_together = layers_together_.count(v.id) != 0;
+        if (const auto order = layer_orders_.find(v.id); order != layer_orders_.end()) r.layer_order = order->second;
         reflection_.resources.push_back(r);
       }
       return;
@@ -377,7 +377,7 @@ class Describer {
   Interface result_;
   Reflection& reflection_;
   std::set<Id> mentioned_;
-  const std::set<Id> layers_together_ = samplers_with_layers_together(program_);
+  const std::map<Id, LayerOrder> layer_orders_ = layer_orders(program_);
 };
 
 }  // namespace

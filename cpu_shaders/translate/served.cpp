@@ -1,6 +1,7 @@
 #include "cpu_shaders/translate/served.h"
 
 #include <algorithm>
+#include <initializer_list>
 
 #include "cpu_shaders/runtime/served_names.h"
 
@@ -32,6 +33,8 @@ std::string glsl_type(const Module& module, Id id) {
       return prefixed(t.element) + "vec" + std::to_string(t.count);
     case Kind::matrix:
       return "mat" + std::to_string(t.count) + "x" + std::to_string(module.type(t.element).count);
+    case Kind::array:
+      return glsl_type(module, t.element) + "[" + std::to_string(t.count) + "]";
     case Kind::structure:
       return module.name(id);
     case Kind::pointer:
@@ -63,25 +66,70 @@ bool is_served_in_double(const Module& module, const Function& function) {
   return is_served(module, function) && module.type(function.result_type).kind == Kind::real;
 }
 
-std::set<Id> samplers_with_layers_together(const Program& program) {
-  std::set<Id> together;  // variables, and parameters that samplers are passed in
-  const auto fetches_layers = [&](const FunctionInfo& info) {
-    const Function& f = *info.function;
-    return (f.name == "exact_fetch_4" || f.name == "sphere_map_fetch_4") && is_served(program.module, f);
-  };
-  for (const auto& [id, info] : program.functions)
-    if (fetches_layers(info)) together.insert(info.function->parameters[0].id);
-  for (std::size_t before = 0; before != together.size();) {
-    before = together.size();
-    for (const auto& [id, info] : program.functions)
+namespace {
+
+bool is_served_as(const Module& module, const Function& f, std::initializer_list<std::string_view> names) {
+  return std::find(names.begin(), names.end(), f.name) != names.end() && is_served(module, f);
+}
+
+}  // namespace
+
+bool fetches_five_colors(const Module& module, const Function& f) {
+  return is_served_as(module, f, {"exact_fetch_5", "sphere_map_fetch_5"});
+}
+
+namespace {
+
+// Adds the variables and parameters that samplers reach those of `samplers` from.
+void follow_samplers_back(const Program& program, std::set<Id>& samplers) {
+  for (std::size_t before = 0; before != samplers.size();) {
+    before = samplers.size();
+    for (const auto& [id, info] : program.functions) {
+      if (fetches_five_colors(program.module, *info.function)) continue;  // as good as a single instruction
       for_each_instruction(info.body.list, [&, &caller = info](const Instruction& i) {
         if (i.op != spv::OpFunctionCall) return;
         const auto& parameters = program.info(i.operands[0]).function->parameters;
         for (std::size_t k = 0; k < parameters.size(); ++k)
-          if (together.count(parameters[k].id)) together.insert(root_of(caller, i.operands[k + 1]));
+          if (samplers.count(parameters[k].id)) samplers.insert(root_of(caller, i.operands[k + 1]));
       });
+    }
   }
-  return together;
+}
+
+// The sampler that an instruction reads texels of.
+Id fetched_sampler(const FunctionInfo& info, const Instruction& i) {
+  const bool reads = i.op == spv::OpImageFetch || (i.op >= spv::OpImageSampleImplicitLod && i.op <= spv::OpImageRead);
+  if (!reads) return 0;
+  for (Id value = i.operands[0];;) {
+    const Instruction& from = *info.definitions.at(value);
+    value = from.operands[0];
+    if (from.op == spv::OpLoad) return root_of(info, value);
+  }
+}
+
+}  // namespace
+
+std::map<Id, LayerOrder> layer_orders(const Program& program) {
+  std::set<Id> together, five_colors, otherwise;
+  for (const auto& [id, info] : program.functions) {
+    const Function& f = *info.function;
+    if (is_served_as(program.module, f, {"exact_fetch_4"})) together.insert(f.parameters[0].id);
+    if (fetches_five_colors(program.module, f)) {
+      five_colors.insert(f.parameters[0].id);
+      continue;
+    }
+    for_each_instruction(info.body.list, [&, &reader = info](const Instruction& i) {
+      if (const Id sampler = fetched_sampler(reader, i)) otherwise.insert(sampler);
+    });
+  }
+  follow_samplers_back(program, together);
+  follow_samplers_back(program, five_colors);
+  follow_samplers_back(program, otherwise);
+  std::map<Id, LayerOrder> orders;
+  for (Id sampler : five_colors)
+    if (!otherwise.count(sampler)) orders[sampler] = LayerOrder::colors_together;
+  for (Id sampler : together) orders[sampler] = LayerOrder::together;
+  return orders;
 }
 
 std::map<Id, Id> samplers_side_by_side(const Program& program) {

@@ -2,11 +2,15 @@
 // runtime/served_names.h.
 #pragma once
 
+#include "cpu_shaders/runtime/shader_abi.h"
 #include "cpu_shaders/translate/function_info.h"
 
 namespace twinshade::spirv {
 
 bool is_served(const Module& module, const Function& function);
+
+// exact_fetch_5 and sphere_map_fetch_5.
+bool fetches_five_colors(const Module& module, const Function& function);
 
 // Functions of numbers alone are served in double: their bit casts never run there.
 bool is_served_in_double(const Module& module, const Function& function);
@@ -14,7 +18,8 @@ bool is_served_in_double(const Module& module, const Function& function);
 // Pairs of sampler variables that are fetched together, the first by its second. A variable is in one pair at most.
 std::map<Id, Id> samplers_side_by_side(const Program& program);
 
-// Sampler variables of which several layers are fetched at once, by a served function of that kind.
-std::set<Id> samplers_with_layers_together(const Program& program);
+// How the layers of sampler variables should lie, where not apart: of which several are fetched at once, by a served
+// function of that kind. Only those that nothing else fetches from have their colours together.
+std::map<Id, LayerOrder> layer_orders(const Program& program);
 
 }  // namespace twinshade::spirv

@@ -50,7 +50,8 @@ struct ReflectedResource {
   std::string name;
   ResourceKind kind = ResourceKind::sampler_2d;
   std::uint32_t slot = 0, minimum_size = 0;
-  bool read_only = true, layers_together = false;
+  bool read_only = true;
+  LayerOrder layer_order = LayerOrder::apart;
   std::int32_t beside = -1;
 };
 

@@ -191,7 +191,8 @@ class Binder {
     view.kind = kind;
     view.filter = texture->filter;
     view.wrap = texture->wrap;
-    if (wanted.layers_together) interleave(view);
+    if (wanted.layer_order == LayerOrder::together) interleave(view);
+    if (wanted.layer_order == LayerOrder::colors_together) interleave_colors(view);
   }
 
   // Layers side by side at each texel, in whole cache lines of four; the last one repeated at the end.
@@ -211,6 +212,25 @@ class Binder {
     view.texel_pitch = std::ptrdiff_t(padded * 4);
     view.row_pitch = view.texel_pitch * std::ptrdiff_t(width);
     view.layer_pitch = 4;
+  }
+
+  // RGB of layers side by side at each texel, five to a cache line; the last one repeated at the end.
+  void interleave_colors(TextureView& view) {
+    const auto layers = std::size_t(view.layers), fives = (layers + 4) / 5;
+    const std::size_t width = std::size_t(view.width), height = std::size_t(view.height);
+    AlignedArray<float>& to = draw_.interleaved.emplace_back(width * height * fives * 16);
+    parallel_for(height, [&](std::size_t y, int) {
+      for (std::size_t layer = 0; layer < fives * 5; ++layer) {
+        const float* from = view.texels + std::ptrdiff_t(std::min(layer, layers - 1)) * view.layer_pitch +
+                            std::ptrdiff_t(y) * view.row_pitch;
+        for (std::size_t x = 0; x < width; ++x)
+          std::copy_n(from + x * 4, 3, &to[((y * width + x) * fives + layer / 5) * 16 + layer % 5 * 3]);
+      }
+    });
+    view.texels = to.data();
+    view.texel_pitch = std::ptrdiff_t(fives * 16);
+    view.row_pitch = view.texel_pitch * std::ptrdiff_t(width);
+    view.layer_pitch = 3;
   }
 
   // Texels of two textures of one size side by side.

@@ -79,6 +79,15 @@ mat4 exact_fetch_4(sampler2DArray maps, ExactTaps taps, int first) {
               exact_fetch(maps, taps, min(first + 2, last)), exact_fetch(maps, taps, min(first + 3, last)));
 }
 
+// RGB of layers 5 * five to 5 * five + 4; past the last layer, the last one.
+vec3[5] exact_fetch_5(sampler2DArray maps, ExactTaps taps, int five) {
+  int first = five * 5;
+  int last = textureSize(maps, 0).z - 1;
+  return vec3[5](exact_fetch(maps, taps, min(first, last)).rgb, exact_fetch(maps, taps, min(first + 1, last)).rgb,
+                 exact_fetch(maps, taps, min(first + 2, last)).rgb, exact_fetch(maps, taps, min(first + 3, last)).rgb,
+                 exact_fetch(maps, taps, min(first + 4, last)).rgb);
+}
+
 // The same layer of two arrays, a column each.
 mat2x4 exact_fetch_pair(sampler2DArray first, sampler2DArray second, ExactTaps taps, int layer) {
   return mat2x4(exact_fetch(first, taps, layer), exact_fetch(second, taps, layer));

@@ -6,23 +6,18 @@
 in vec2 v_lightmap_uv;
 uniform sampler2DArray COEFFICIENTS;  // RGB
 
-vec3 coefficients[(COEFFICIENT_COUNT + 3) / 4 * 4];
+vec3 coefficients[(COEFFICIENT_COUNT + 4) / 5 * 5];
 
 void load_coefficients() {
   ExactTaps taps = exact_taps_clamp(v_lightmap_uv, textureSize(COEFFICIENTS, 0).xy);
-#if COEFFICIENT_COUNT % 4 == 1
-  const int SINGLE = COEFFICIENT_COUNT - 1;
-  coefficients[SINGLE] = exact_fetch(COEFFICIENTS, taps, SINGLE).rgb;
+#if COEFFICIENT_COUNT == 1
+  coefficients[0] = exact_fetch(COEFFICIENTS, taps, 0).rgb;
 #else
-  const int SINGLE = COEFFICIENT_COUNT;
-#endif
-  for (int i = 0; i < SINGLE; i += 4) {
-    mat4 layers = exact_fetch_4(COEFFICIENTS, taps, i);
-    coefficients[i] = layers[0].rgb;
-    coefficients[i + 1] = layers[1].rgb;
-    coefficients[i + 2] = layers[2].rgb;
-    coefficients[i + 3] = layers[3].rgb;
+  for (int five = 0; five < (COEFFICIENT_COUNT + 4) / 5; ++five) {
+    vec3 layers[5] = exact_fetch_5(COEFFICIENTS, taps, five);
+    for (int k = 0; k < 5; ++k) coefficients[five * 5 + k] = layers[k];
   }
+#endif
 }
 
 #define COEF(i) coefficients[i]

@@ -4,6 +4,8 @@
 // (RGB). Three fetches where rows on their own need four, and the same bits. Iwanicki and Sloan, Normal Mapping with Low-Frequency
 // Precomputed Visibility, JGT 2012. Includer defines what light_tables_layers.glsl says.
 
+#define LIGHT_TABLE_FIVES 0
+
 uniform sampler2D LIGHT_TABLES;
 
 // Of four rows.
@@ -40,4 +42,9 @@ LightColors light_table_quad(SphereMapTaps taps, int quad) {
 // The row beyond all quads.
 vec3 light_table_last(SphereMapTaps taps) {
   return light_table_band(taps, VISIBILITY_COUNT / 4 * 3 + VISIBILITY_MEAN).rgb;
+}
+
+// The only row.
+vec3 light_table_only(SphereMapTaps taps) {
+  return light_table_band(taps, 0).rgb;
 }

@@ -3,6 +3,6 @@
 
 // n: unit normal.
 vec3 basis_irradiance(vec3 n) {
-  precise vec3 irradiance = light_table_last(light_table_taps(n)) * visibility_weights(0).x;
+  precise vec3 irradiance = light_table_only(light_table_taps(n)) * visibility_weights(0).x;
   return irradiance;
 }

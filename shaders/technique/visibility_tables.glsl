@@ -4,6 +4,31 @@
 // visibility_vertex.glsl, a sphere map and light_tables_layers.glsl or light_tables_packed.glsl.
 
 // n: unit normal.
+#if LIGHT_TABLE_FIVES
+vec3 basis_irradiance(vec3 n) {
+  const int ROWS = VISIBILITY_COUNT + VISIBILITY_MEAN;
+  const int FIRST_ROWS = ROWS < 5 ? ROWS : 5;
+  SphereMapTaps taps = light_table_taps(n);
+  vec3 colors[5] = light_table_five(taps, 0);
+  precise vec3 irradiance = colors[VISIBILITY_MEAN] * visibility_weights(0).x;
+#if VISIBILITY_MEAN
+  irradiance += colors[0];
+#endif
+  for (int row = VISIBILITY_MEAN + 1; row < FIRST_ROWS; ++row) {
+    int i = row - VISIBILITY_MEAN;
+    irradiance += colors[row] * visibility_weights(i / 4)[i & 3];
+  }
+  for (int five = 1; five < (ROWS + 4) / 5; ++five) {
+    colors = light_table_five(taps, five);
+    for (int k = 0; k < 5; ++k) {
+      int row = five * 5 + k;
+      int i = row - VISIBILITY_MEAN;
+      if (row < ROWS) irradiance += colors[k] * visibility_weights(i / 4)[i & 3];
+    }
+  }
+  return irradiance;
+}
+#else
 vec3 basis_irradiance(vec3 n) {
   SphereMapTaps taps = light_table_taps(n);
   vec4 weights = visibility_weights(0);
@@ -28,3 +53,4 @@ vec3 basis_irradiance(vec3 n) {
 #endif
   return irradiance;
 }
+#endif

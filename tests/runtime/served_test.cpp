@@ -75,12 +75,47 @@ uniform sampler2DArray maps;
 in vec2 uv;
 in float layer;
 out vec4 one;
-out vec4 four[4];
 void main() {
   SphereMapTaps taps = sphere_map_taps(vec3(uv - 0.5, layer - 1.5), textureSize(maps, 0).x);
   one = sphere_map_fetch(maps, taps, 4, 3);
-  mat4 columns = sphere_map_fetch_4(maps, taps, 4, 0);
-  for (int i = 0; i < 4; ++i) four[i] = columns[i];
+}
+)";
+
+// Five layers' colours: first, last, past the last one, before the first, by lane.
+constexpr const char* kFiveLayers = R"(
+#include "exact/bilinear.glsl"
+uniform sampler2DArray maps;
+in vec2 uv;
+in float layer;
+out vec3 colors[25];
+void main() {
+  ExactTaps taps = exact_taps_clamp(uv, textureSize(maps, 0).xy);
+  for (int five = 0; five < 4; ++five) {
+    vec3 layers[5] = exact_fetch_5(maps, taps, five - 1);
+    for (int k = 0; k < 5; ++k) colors[five * 5 + k] = layers[k];
+  }
+  vec3 by_lane[5] = exact_fetch_5(maps, taps, int(layer));
+  for (int k = 0; k < 5; ++k) colors[20 + k] = by_lane[k];
+}
+)";
+
+// Five maps' colours; then where maps are not whole fives.
+constexpr const char* kFiveMaps = R"(
+#include "sphere_map/dual_paraboloid.glsl"
+uniform sampler2DArray maps;
+in vec2 uv;
+in float layer;
+out vec3 colors[15];
+void main() {
+  SphereMapTaps taps = sphere_map_taps(vec3(uv - 0.5, layer - 1.5), textureSize(maps, 0).x);
+  vec3 whole[5] = sphere_map_fetch_5(maps, taps, textureSize(maps, 0).z / SPHERE_MAP_LAYERS, 0);
+  vec3 uneven[5] = sphere_map_fetch_5(maps, taps, 3, 0);
+  vec3 beyond[5] = sphere_map_fetch_5(maps, taps, 5, 1);
+  for (int k = 0; k < 5; ++k) {
+    colors[k] = whole[k];
+    colors[5 + k] = uneven[k];
+    colors[10 + k] = beyond[k];
+  }
 }
 )";
 
@@ -100,9 +135,11 @@ std::vector<float> random_rows(std::size_t rows, float spread) {
   return inputs;
 }
 
-// Runs `text` as it is and with `name` renamed, which the runtime does not serve, and compares bits.
+// Runs `text` as it is and with `name` renamed, which the runtime does not serve, and compares bits. The latter reads
+// the same texels by views of its own.
 void check_served(const std::string& text, const std::string& name, const std::vector<float>& inputs,
-                  std::span<const TextureView> views) {
+                  std::span<const TextureView> views, std::span<const TextureView> views_as_written,
+                  std::initializer_list<Number> numbers = {Number::lanes4, Number::lanes8, Number::lanes16}) {
   const std::string renamed = "#define " + name + " fetch_as_written\n" + text;
   const auto calls_runtime = [&](const std::string& source) {
     return translate(resolve_shader("fetch", source, "fetch.frag")).cpp.find("served::" + name + "<") !=
@@ -111,9 +148,9 @@ void check_served(const std::string& text, const std::string& name, const std::v
   REQUIRE(calls_runtime(text));
   REQUIRE(!calls_runtime(renamed));
   const std::size_t rows = inputs.size() / 3;
-  for (const Number number : {Number::lanes4, Number::lanes8, Number::lanes16}) {
+  for (const Number number : numbers) {
     const auto served = RowShader("served_fetch", text, number).run(inputs, rows, views);
-    const auto written = RowShader("fetch_as_written", renamed, number).run(inputs, rows, views);
+    const auto written = RowShader("fetch_as_written", renamed, number).run(inputs, rows, views_as_written);
     REQUIRE(served.size() == written.size());
     std::size_t differ = 0, first = 0;
     for (std::size_t i = 0; i < served.size(); ++i) {
@@ -124,6 +161,10 @@ void check_served(const std::string& text, const std::string& name, const std::v
                   hex(inputs[first % rows]), " ", hex(inputs[rows + first % rows]), " component ", first / rows, " is ",
                   hex(served[first]), ", written ", hex(written[first]));
   }
+}
+void check_served(const std::string& text, const std::string& name, const std::vector<float>& inputs,
+                  std::span<const TextureView> views) {
+  check_served(text, name, inputs, views, views);
 }
 
 // Copies of array textures as the renderer lays them out for several reads at once.
@@ -143,6 +184,22 @@ struct SideBySide {
     view.texel_pitch = padded * 4;
     view.row_pitch = view.texel_pitch * from.width;
     view.layer_pitch = 4;
+    return view;
+  }
+  TextureView colors(const TextureView& from) {
+    const std::ptrdiff_t fives = (from.layers + 4) / 5;
+    texels.assign(static_cast<std::size_t>(from.width * from.height * fives * 16), NAN);
+    for (std::ptrdiff_t y = 0; y < from.height; ++y)
+      for (std::ptrdiff_t x = 0; x < from.width; ++x)
+        for (std::ptrdiff_t l = 0; l < fives * 5; ++l)
+          std::copy_n(from.texels + std::min<std::ptrdiff_t>(l, from.layers - 1) * from.layer_pitch +
+                          y * from.row_pitch + x * 4,
+                      3, texels.data() + ((y * from.width + x) * fives + l / 5) * 16 + l % 5 * 3);
+    TextureView view = from;
+    view.texels = texels.data();
+    view.texel_pitch = fives * 16;
+    view.row_pitch = view.texel_pitch * from.width;
+    view.layer_pitch = 3;
     return view;
   }
   std::pair<TextureView, TextureView> pair(const TextureView& a, const TextureView& b) {
@@ -186,21 +243,70 @@ TEST_CASE("fetches of several layers or textures give the bits of their GLSL, si
     }
 }
 
+// An array texture of `layers` layers, all of its numbers different.
+struct ManyLayers {
+  static constexpr std::int32_t kWidth = 4;
+  std::vector<float> texels;
+  TextureView view = test_texture(3);
+  explicit ManyLayers(std::int32_t layers)
+      : texels(std::size_t{kWidth} * kWidth * static_cast<std::size_t>(layers) * 4) {
+    for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = static_cast<float>(i) * 0.37f - 9;
+    view.texels = texels.data();
+    view.width = view.height = kWidth;
+    view.layers = layers;
+    view.row_pitch = kWidth * 4;
+    view.layer_pitch = view.row_pitch * kWidth;
+  }
+};
+
 TEST_CASE("fetches of sphere maps give the bits of their GLSL, side by side in memory or not") {
-  constexpr std::int32_t kWidth = 4, kLayers = 8;
-  std::vector<float> texels(std::size_t{kWidth} * kWidth * kLayers * 4);
-  for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = static_cast<float>(i % 97) * 0.37f - 9;
-  TextureView array = test_texture(3);
-  array.texels = texels.data();
-  array.width = array.height = kWidth;
-  array.layers = kLayers;
-  array.row_pitch = kWidth * 4;
-  array.layer_pitch = array.row_pitch * kWidth;
+  const ManyLayers array(8);
   SideBySide four;
-  const TextureView together = four.layers(array);
-  for (const char* name : {"sphere_map_fetch", "sphere_map_fetch_4"})
-    for (const TextureView& view : {array, together})
-      for (const float spread : {1.0f, 0.001f}) check_served(kMaps, name, random_rows(4000, spread), std::array{view});
+  const TextureView together = four.layers(array.view);
+  for (const TextureView& view : {array.view, together})
+    for (const float spread : {1.0f, 0.001f})
+      check_served(kMaps, "sphere_map_fetch", random_rows(4000, spread), std::array{view});
+}
+
+TEST_CASE("fetches of five layers' colours give the bits of their GLSL, their colours side by side in memory or not") {
+  for (const std::int32_t layers : {1, 9, 10, 20}) {
+    CAPTURE(layers);
+    const ManyLayers array(layers);
+    SideBySide fives;
+    const TextureView together = fives.colors(array.view);
+    for (const TextureView& view : {array.view, together})
+      for (const float spread : {1.0f, 0.001f}) {
+        const auto inputs = random_rows(2000, spread);
+        const auto numbers = {Number::lanes4, Number::lanes8, Number::lanes16, Number::scalar};
+        check_served(kFiveLayers, "exact_fetch_5", inputs, std::array{view}, std::array{array.view}, numbers);
+        check_served(kFiveMaps, "sphere_map_fetch_5", inputs, std::array{view}, std::array{array.view}, numbers);
+      }
+  }
+}
+
+TEST_CASE("the reflection says how the layers of a sampler should lie") {
+  const auto order = [](const std::string& main, std::size_t resource = 0) {
+    const auto reflection = translate(resolve_shader("order",
+                                                     "#include \"exact/bilinear.glsl\"\n"
+                                                     "uniform sampler2DArray maps;\nin vec2 uv;\nout vec4 color;\n"
+                                                     "vec3 five(sampler2DArray of, ExactTaps taps) {\n"
+                                                     "  return exact_fetch_5(of, taps, 1)[2];\n}\n" +
+                                                         main,
+                                                     "order.frag"))
+                                .reflection;
+    return reflection.resources.at(resource).layer_order;
+  };
+  const std::string taps =
+      "void main() {\n  ExactTaps taps = exact_taps_clamp(uv, textureSize(maps, 0).xy);\n  color = ";
+  CHECK(order(taps + "exact_fetch(maps, taps, 0); }\n") == LayerOrder::apart);
+  CHECK(order(taps + "exact_fetch_4(maps, taps, 0)[1]; }\n") == LayerOrder::together);
+  CHECK(order(taps + "vec4(exact_fetch_5(maps, taps, 0)[1], 1.0); }\n") == LayerOrder::colors_together);
+  CHECK(order(taps + "vec4(five(maps, taps), 1.0); }\n") == LayerOrder::colors_together);
+  // Alpha, or a single layer, can only be read in the other orders.
+  CHECK(order(taps + "vec4(five(maps, taps), 1.0) + exact_fetch(maps, taps, 0); }\n") == LayerOrder::apart);
+  CHECK(order(taps + "vec4(five(maps, taps), texelFetch(maps, ivec3(0), 0).a); }\n") == LayerOrder::apart);
+  CHECK(order(taps + "vec4(five(maps, taps), 1.0) + texture(maps, vec3(uv, 0.0)); }\n") == LayerOrder::apart);
+  CHECK(order(taps + "vec4(five(maps, taps), 1.0) + exact_fetch_4(maps, taps, 0)[1]; }\n") == LayerOrder::together);
 }
 
 TEST_CASE("in double the transcendentals of shaders/exact/ are good to 1e-15, not to their float polynomials") {

@@ -170,9 +170,9 @@ TEST_CASE("textures that are read together lie side by side, every texel where t
   add("normals", 2);
   Wishes wishes;
   wishes.textures = 3;
-  wishes.resources = {{"coefficients", ResourceKind::sampler_2d_array, 0, 0, true, true, -1},
-                      {"albedo", ResourceKind::sampler_2d_array, 1, 0, true, false, 2},
-                      {"normals", ResourceKind::sampler_2d_array, 2, 0, true, false, -1}};
+  wishes.resources = {{"coefficients", ResourceKind::sampler_2d_array, 0, 0, true, LayerOrder::together, -1},
+                      {"albedo", ResourceKind::sampler_2d_array, 1, 0, true, LayerOrder::apart, 2},
+                      {"normals", ResourceKind::sampler_2d_array, 2, 0, true, LayerOrder::apart, -1}};
   const auto texel = [](const TextureView& view, std::ptrdiff_t x, std::ptrdiff_t y, std::ptrdiff_t layer) {
     return view.texels + layer * view.layer_pitch + y * view.row_pitch + x * view.texel_pitch;
   };
@@ -190,6 +190,18 @@ TEST_CASE("textures that are read together lie side by side, every texel where t
   CHECK(bound.textures[0].texel_pitch == 32);  // eight layers: the last one is there three times
   CHECK(*texel(bound.textures[0], 2, 1, 7) == *texel(bound.textures[0], 2, 1, 5));
   CHECK(bound.textures[2].texels == bound.textures[1].texels + 4);
+
+  wishes.resources[0].layer_order = LayerOrder::colors_together;
+  const tiled::BoundDraw fives = tiled::bind(bundle, wishes.module(), AttributeMode::exact);
+  const TextureView& view = fives.textures[0];
+  CHECK(view.layer_pitch == 3);
+  CHECK(view.texel_pitch == 32);  // ten layers: the last one is there five times
+  for (std::ptrdiff_t layer = 0; layer < 10; ++layer)
+    for (std::ptrdiff_t y = 0; y < 2; ++y)
+      for (std::ptrdiff_t x = 0; x < 3; ++x)
+        for (std::ptrdiff_t c = 0; c < 3; ++c)
+          CHECK(view.texels[y * view.row_pitch + x * 32 + layer / 5 * 16 + layer % 5 * 3 + c] ==
+                bundle.textures[0].texels[std::size_t(((std::min<std::ptrdiff_t>(layer, 5) * 2 + y) * 3 + x) * 4 + c)]);
 
   bundle.textures[2].width = 2, bundle.textures[2].height = 3;  // another size: left as it is
   const tiled::BoundDraw apart = tiled::bind(bundle, wishes.module(), AttributeMode::exact);

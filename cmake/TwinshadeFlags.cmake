@@ -63,10 +63,40 @@ function(twinshade_isa_objects name out)
   set(${out} ${objects} PARENT_SCOPE)
 endfunction()
 
+# Half a second of each unit is the standard library's headers. Once for libraries, once for programs, whose code is not the same
+# kind of position-independent.
+option(TWINSHADE_PRECOMPILE "precompiled header of the standard library" ON)
+function(twinshade_precompile name)
+  if(NOT TWINSHADE_PRECOMPILE)
+    return()
+  endif()
+  get_target_property(type ${name} TYPE)
+  set(common twinshade_headers_of_libraries)
+  if(type STREQUAL EXECUTABLE)
+    set(common twinshade_headers_of_programs)
+  endif()
+  if(NOT TARGET ${common})
+    set(source ${CMAKE_BINARY_DIR}/${common}.cpp)
+    file(CONFIGURE OUTPUT ${source} CONTENT "int main() {}\n")
+    if(type STREQUAL EXECUTABLE)
+      add_executable(${common} ${source})
+    else()
+      add_library(${common} OBJECT ${source})
+    endif()
+    target_link_libraries(${common} PRIVATE twinshade_flags)
+    target_precompile_headers(${common} PRIVATE ${CMAKE_SOURCE_DIR}/base/standard_headers.h)
+  endif()
+  target_precompile_headers(${name} REUSE_FROM ${common})
+  # GCC forgets that these are system headers: false reports on strings (bug 105651).
+  target_compile_options(${name} PRIVATE
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict$<SEMICOLON>-Wno-array-bounds$<SEMICOLON>-Wno-stringop-overflow>)
+endfunction()
+
 # A library of the project: add_library + the flags above.
 function(twinshade_library name)
   add_library(${name} STATIC ${ARGN})
   target_link_libraries(${name} PUBLIC twinshade_flags)
+  twinshade_precompile(${name})
 endfunction()
 
 # For tests under sanitizers: what is known of libraries that are not ours.
@@ -86,9 +116,9 @@ function(twinshade_on_request group)
 endfunction()
 
 # A doctest executable, registered with CTest as one test of the same name. LABELS slow for those outside the default run and build. GL for
-# those that draw with OpenGL, where it is built: their main() can become a GL worker.
+# those that draw with OpenGL, where it is built: their main() can become a GL worker. HEADERS: a precompiled header of its own.
 function(twinshade_test name)
-  cmake_parse_arguments(T "GL" "LABELS" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(T "GL" "LABELS" "SOURCES;LIBRARIES;HEADERS" ${ARGN})
   if(T_GL AND TWINSHADE_GL)
     set(main gl_test_main)
     list(APPEND T_LIBRARIES twinshade_gl)
@@ -97,6 +127,11 @@ function(twinshade_test name)
   endif()
   add_executable(${name} ${T_SOURCES} $<TARGET_OBJECTS:${main}>)
   target_link_libraries(${name} PRIVATE twinshade_flags ${T_LIBRARIES})
+  if(T_HEADERS)
+    target_precompile_headers(${name} PRIVATE ${T_HEADERS})
+  else()
+    twinshade_precompile(${name})
+  endif()
   target_compile_definitions(${name} PRIVATE TWINSHADE_HAS_GL=$<BOOL:${TWINSHADE_GL}>)
   # GCC bug 105651: it sees overlaps in "text" + std::string.
   target_compile_options(${name} PRIVATE ${TWINSHADE_COLD} $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)

@@ -1,7 +1,10 @@
 #include "base/parallel.h"
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
+#include <functional>
+#include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -44,6 +47,58 @@ struct Work {
   }
 };
 
+#if TWINSHADE_USE_TBB
+struct Arena {
+  const int workers;
+  // Without it TBB never runs more threads than there are processors, whatever the arena asks for.
+  const oneapi::tbb::global_control control;
+  oneapi::tbb::task_arena arena;
+  explicit Arena(int count)
+      : workers(count),
+        control(oneapi::tbb::global_control::max_allowed_parallelism, std::size_t(count)),
+        arena(count) {}
+
+  void run(int tasks, const std::function<void(int)>& task) {
+    arena.execute([&] {
+      oneapi::tbb::task_group group;
+      for (int i = 1; i < tasks; ++i) group.run([&task, i] { task(i); });
+      task(0);
+      group.wait();
+    });
+  }
+};
+
+// Whether this thread is within a parallel_for.
+thread_local bool is_inside = false;
+
+// Workers come to an arena that they were in before a tenth of a millisecond earlier than to a new one, so it is kept
+// from call to call. A call within a call has its own: waiting in the same one, a thread would take up other calls of
+// the outer body.
+void run_tasks(int tasks, const std::function<void(int)>& task) {
+  if (is_inside) {
+    Arena(tasks).run(tasks, task);
+    return;
+  }
+  thread_local std::unique_ptr<Arena> kept;
+  if (!kept || kept->workers != thread_count()) {
+    kept.reset();
+    kept = std::make_unique<Arena>(thread_count());
+  }
+  kept->run(tasks, [&](int i) {
+    is_inside = true;
+    task(i);
+    is_inside = false;
+  });
+}
+#else
+void run_tasks(int tasks, const std::function<void(int)>& task) {
+  std::vector<std::thread> threads;
+  for (int i = 1; i < tasks; ++i) threads.emplace_back([&task, i] { task(i); });
+  task(0);
+  for (std::thread& thread : threads) thread.join();
+}
+#endif
+
 }  // namespace
 
 int processor_count() {
@@ -64,27 +119,10 @@ int thread_count() { return requested(); }
 void parallel_for(std::size_t count, const std::function<void(std::size_t, int)>& body) {
   Work work(count);
   const int workers = int(std::min<std::size_t>(std::size_t(thread_count()), count));
-  if (workers <= 1) {
+  if (workers <= 1)
     work.run(body, 0);
-  } else {
-#if TWINSHADE_USE_TBB
-    // Without global_control TBB never runs more threads than there are processors, whatever the arena asks for.
-    const oneapi::tbb::global_control control(oneapi::tbb::global_control::max_allowed_parallelism,
-                                              std::size_t(workers));
-    oneapi::tbb::task_arena arena(workers);
-    arena.execute([&] {
-      oneapi::tbb::task_group group;
-      for (int worker = 1; worker < workers; ++worker) group.run([&, worker] { work.run(body, worker); });
-      work.run(body, 0);
-      group.wait();
-    });
-#else
-    std::vector<std::thread> threads;
-    for (int worker = 1; worker < workers; ++worker) threads.emplace_back([&, worker] { work.run(body, worker); });
-    work.run(body, 0);
-    for (std::thread& thread : threads) thread.join();
-#endif
-  }
+  else
+    run_tasks(workers, [&](int worker) { work.run(body, worker); });
   if (work.error) std::rethrow_exception(work.error);
 }
 

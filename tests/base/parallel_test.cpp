@@ -59,3 +59,19 @@ TEST_CASE("the first exception of a body comes back to the caller") {
   parallel_for(0, [&](std::size_t, int) { ++calls; });
   CHECK(calls == 0);
 }
+
+TEST_CASE("calls within calls hand out each index once, and workers keep their numbers") {
+  set_thread_count(4);
+  std::vector<std::atomic<int>> calls(16 * 50);
+  std::vector<std::atomic<int>> busy(4);
+  std::atomic<int> wrong{0};
+  for (int repeat = 0; repeat < 20; ++repeat)
+    parallel_for(16, [&](std::size_t outer, int worker) {
+      if (busy[std::size_t(worker)]++ != 0) ++wrong;
+      parallel_for(50, [&](std::size_t inner, int) { ++calls[outer * 50 + inner]; });
+      --busy[std::size_t(worker)];
+    });
+  CHECK(wrong == 0);
+  for (const auto& count : calls) CHECK(count == 20);
+  set_thread_count(0);
+}

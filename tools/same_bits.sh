@@ -68,7 +68,7 @@ if grep -q avx2 /proc/cpuinfo; then
 fi
 environment=()
 
-for tile in 16 32 64; do
+for tile in 16 32 64 128; do
   options=(--tile $tile)
   check_frame tile-$tile "$first"
 done

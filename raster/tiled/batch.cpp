@@ -5,16 +5,6 @@
 #include "raster/tiled/draw.h"
 
 namespace twinshade::tiled {
-const Batch::QuadPixels Batch::kQuadPixels[16] = {
-    {{0, 0, 0, 0}, 0}, {{0, 0, 0, 0}, 1}, {{1, 0, 0, 0}, 1}, {{0, 1, 0, 0}, 2}, {{2, 0, 0, 0}, 1}, {{0, 2, 0, 0}, 2},
-    {{1, 2, 0, 0}, 2}, {{0, 1, 2, 0}, 3}, {{3, 0, 0, 0}, 1}, {{0, 3, 0, 0}, 2}, {{1, 3, 0, 0}, 2}, {{0, 1, 3, 0}, 3},
-    {{2, 3, 0, 0}, 2}, {{0, 2, 3, 0}, 3}, {{1, 2, 3, 0}, 3}, {{0, 1, 2, 3}, 4}};
-
-const std::uint32_t Batch::kLaneMasks[16][4] = {
-    {0, 0, 0, 0},     {~0u, 0, 0, 0},     {0, ~0u, 0, 0},     {~0u, ~0u, 0, 0},    {0, 0, ~0u, 0},   {~0u, 0, ~0u, 0},
-    {0, ~0u, ~0u, 0}, {~0u, ~0u, ~0u, 0}, {0, 0, 0, ~0u},     {~0u, 0, 0, ~0u},    {0, ~0u, 0, ~0u}, {~0u, ~0u, 0, ~0u},
-    {0, 0, ~0u, ~0u}, {~0u, 0, ~0u, ~0u}, {0, ~0u, ~0u, ~0u}, {~0u, ~0u, ~0u, ~0u}};
-
 Batch::Batch(const Draw& draw)
     : draw_(draw),
       center_x_(kStride),
@@ -35,18 +25,46 @@ void Batch::begin_tile(std::uint32_t x, std::uint32_t y) {
   tile_y_ = y;
 }
 
+void Batch::add_quad(std::uint32_t local, std::uint32_t quad, std::uint32_t coverage) {
+  quads_ = true;
+  if (run_count_ == 0 || runs_[run_count_ - 1].local != local) runs_[run_count_++] = {local, count_};
+  for (std::uint32_t i = 0; i < 4; ++i, ++count_) {
+    pixels_[count_] = 4 * quad + i;
+    live_[count_] = coverage >> i & 1 ? ~0u : 0u;
+  }
+}
+
+std::size_t Batch::add_covered(const VisibleBlock* blocks, std::size_t block_count) {
+  AddCovered call{blocks, block_count, kBatchSize, pixels_, runs_, count_, run_count_};
+  const std::size_t taken = draw_.kernels.add_covered(call);
+  count_ = call.count;
+  run_count_ = call.run_count;
+  return taken;
+}
+
 void Batch::clear() {
-  count_ = run_count_ = 0;
-  all_live_ = true;
+  quads_ = false;
+  const std::uint32_t first = shaded(), left = count_ - first;
+  std::copy_n(pixels_ + first, left, pixels_);
+  std::uint32_t run = run_count_;
+  while (run > 0 && end_of_run(run - 1, count_) > first) --run;
+  run_count_ -= run;
+  for (std::uint32_t r = 0; r < run_count_; ++r)
+    runs_[r] = {runs_[run + r].local, runs_[run + r].first > first ? runs_[run + r].first - first : 0};
+  count_ = left;
 }
 
 void Batch::shade(const LocalPrimitive* primitives, StageClock& clock) {
-  // Whole vectors of 16: dead invocations repeat the last one.
-  const std::uint32_t padded = (count_ + 15) / 16 * 16;
-  for (std::uint32_t k = count_; k < padded; ++k) {
-    pixels_[k] = pixels_[count_ - 1];
+  // Whole vectors of 16: dead invocations repeat the last one. More than are shaded now are there in whole vectors
+  // only.
+  const std::uint32_t count = shaded(), padded = (count + 15) / 16 * 16;
+  if (!quads_) std::fill_n(live_, count, ~0u);
+  for (std::uint32_t k = count; k < padded; ++k) {
+    pixels_[k] = pixels_[count - 1];
     live_[k] = 0;
   }
+  std::uint32_t run_count = run_count_;
+  while (runs_[run_count - 1].first >= count) --run_count;
 
   std::optional<FlushDenormals> flush;
   if (!draw_.float64()) flush.emplace();
@@ -57,7 +75,7 @@ void Batch::shade(const LocalPrimitive* primitives, StageClock& clock) {
   interpolate.tile_y = tile_y_;
   interpolate.superblocks_log = std::uint32_t(std::countr_zero(draw_.grid.tile_size / kSuperblock));
   interpolate.runs = runs_;
-  interpolate.run_count = run_count_;
+  interpolate.run_count = run_count;
   interpolate.primitives = primitives;
   interpolate.vertices = &draw_.vertices;
   interpolate.interpolation = interpolation_.data();
@@ -72,9 +90,8 @@ void Batch::shade(const LocalPrimitive* primitives, StageClock& clock) {
   draw_.kernels.interpolate(interpolate);
 
   if (draw_.module.uses_primitive_id)
-    for (std::uint32_t r = 0; r < run_count_; ++r)
-      std::fill(primitive_id_.data() + runs_[r].first,
-                primitive_id_.data() + (r + 1 < run_count_ ? runs_[r + 1].first : padded),
+    for (std::uint32_t r = 0; r < run_count; ++r)
+      std::fill(primitive_id_.data() + runs_[r].first, primitive_id_.data() + end_of_run(r, padded),
                 primitives[runs_[r].local].primitive);
   clock.lap(Stage::interpolate);
 
@@ -110,8 +127,8 @@ void Batch::store(float* tile_color) const {
   for (std::uint32_t c = 0; c < draw_.bound.color_components; ++c)
     call.channels[c] = outputs + std::size_t(draw_.bound.color_first + c) * kStride;
   call.pixels = pixels_;
-  call.stored = all_live_ ? nullptr : live_;
-  call.count = count_;
+  call.stored = quads_ ? live_ : nullptr;
+  call.count = shaded();
   call.color = tile_color;
   draw_.kernels.store_colors(call);
   if (draw_.options.capture_attributes) store_extras(outputs, reinterpret_cast<const float*>(inputs_.data()));
@@ -119,7 +136,7 @@ void Batch::store(float* tile_color) const {
 
 // Colours in double, rounded.
 void Batch::store_narrowed(float* tile_color) const {
-  for (std::uint32_t k = 0; k < count_; ++k) {
+  for (std::uint32_t k = 0; k < shaded(); ++k) {
     if (live_[k] == 0) continue;
     float* pixel = tile_color + 4 * std::size_t(pixels_[k]);
     for (std::uint32_t c = 0; c < 4; ++c)
@@ -136,7 +153,7 @@ void Batch::store_extras(const R* outputs, const R* inputs) const {
   // Where the pixels are: as the interpolation found them.
   const R* const center_x = reinterpret_cast<const R*>(center_x_.data());
   const R* const center_y = reinterpret_cast<const R*>(center_y_.data());
-  for (std::uint32_t k = 0; k < count_; ++k) {
+  for (std::uint32_t k = 0; k < shaded(); ++k) {
     if (live_[k] == 0) continue;
     const std::size_t pixel = std::size_t(center_y[k]) * frame.width + std::size_t(center_x[k]);
     if constexpr (sizeof(R) == sizeof(double))

@@ -42,24 +42,18 @@ class Batch {
   void begin_tile(std::uint32_t x, std::uint32_t y);
 
   std::uint32_t count() const { return count_; }
-  // No room for another quad.
-  bool full() const { return count_ + 4 > kBatchSize; }
+  // Shade it before more is added.
+  bool full() const { return count_ >= kBatchSize; }
   // All four pixels of a quad. quad: index in the tile's memory / 4; coverage: bit i for its pixel i.
-  void add_quad(std::uint32_t local, std::uint32_t quad, std::uint32_t coverage) {
-    add(local, quad, kQuadPixels[15]);
-    std::copy_n(kLaneMasks[coverage], 4, live_ + count_);
-    all_live_ = false;
-    count_ += 4;
-  }
-  // The covered pixels alone. A batch has invocations of one kind only.
-  void add_covered(std::uint32_t local, std::uint32_t quad, std::uint32_t coverage) {
-    add(local, quad, kQuadPixels[coverage]);
-    std::copy_n(kLaneMasks[15], 4, live_ + count_);
-    count_ += kQuadPixels[coverage].count;
-  }
+  void add_quad(std::uint32_t local, std::uint32_t quad, std::uint32_t coverage);
+  // The covered pixels alone, of blocks until it is full. Returns how many blocks it took. A batch has invocations of
+  // one kind only.
+  std::size_t add_covered(const VisibleBlock* blocks, std::size_t block_count);
 
-  // Fills inputs, runs the shader, stores nothing yet. Pads with dead invocations to whole vectors first.
+  // Fills inputs, runs the shader on kBatchSize invocations or all that there are, stores nothing yet. Pads with dead
+  // ones to whole vectors first.
   void shade(const LocalPrimitive* primitives, StageClock& clock);
+  // Keeps what was added beyond kBatchSize.
   void clear();
 
   // What became of an invocation: whether it was covered and the shader kept it.
@@ -72,30 +66,23 @@ class Batch {
   void store(float* tile_color) const;
 
  private:
-  // [m]: the bits that are set in m, the lowest first, and how many.
-  struct QuadPixels {
-    std::uint32_t of[4], count;
-  };
-  static const QuadPixels kQuadPixels[16];
-  // [m][i]: ~0 where bit i of m is set.
-  static const std::uint32_t kLaneMasks[16][4];
-
-  void add(std::uint32_t local, std::uint32_t quad, const QuadPixels& which) {
-    if (run_count_ == 0 || runs_[run_count_ - 1].local != local) runs_[run_count_++] = {local, count_};
-    for (std::uint32_t i = 0; i < 4; ++i) pixels_[count_ + i] = 4 * quad + which.of[i];
-  }
   void store_narrowed(float* tile_color) const;
   template <class R>
   void store_extras(const R* outputs, const R* inputs) const;
 
-  static constexpr std::uint32_t kStride = kBatchSize + 16;
+  static constexpr std::uint32_t kStride = kBatchSize + 32;  // a block more, and the words that are written past it
+
+  std::uint32_t end_of_run(std::uint32_t run, std::uint32_t count) const {
+    return run + 1 < run_count_ ? std::min(runs_[run + 1].first, count) : count;
+  }
+  std::uint32_t shaded() const { return std::min(count_, kBatchSize); }
 
   const Draw& draw_;
   std::uint32_t tile_x_ = 0, tile_y_ = 0;
   std::uint32_t count_ = 0, run_count_ = 0;
-  bool all_live_ = true;
+  bool quads_ = false;                                         // live_ says which are covered; else all are
   alignas(64) std::uint32_t pixels_[kStride], live_[kStride];  // of each invocation
-  ShadeRun runs_[kBatchSize];
+  ShadeRun runs_[kStride];
   std::vector<std::uint8_t> interpolation_, scalars_;
   // Doubles for all numbers: floats use the first half.
   AlignedArray<double> center_x_, center_y_, inputs_, frag_coord_, outputs_, frag_depth_;

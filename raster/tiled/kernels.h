@@ -76,6 +76,16 @@ struct ShadeRun {
   std::uint32_t first;  // invocation
 };
 
+// Covered pixels of blocks, added to invocations.
+struct AddCovered {
+  const VisibleBlock* blocks;
+  std::size_t block_count;
+  std::uint32_t enough;            // invocations after which no further block is begun
+  std::uint32_t* pixels;           // as Interpolate::pixels, with room for 32 past `enough`
+  ShadeRun* runs;                  // with room for as many
+  std::uint32_t count, run_count;  // in and out
+};
+
 // Inputs of `count` invocations. Arrays are structures of arrays with room for 16 elements past `count`.
 struct Interpolate {
   const std::uint32_t* pixels;  // of each invocation, index in the tile's memory
@@ -116,6 +126,8 @@ struct Kernels {
   std::uint32_t (*cover_one)(const CoverTile&, std::uint32_t which, bool early_depth_test, CoveredQuad* out);
   // Returns how many blocks it found.
   std::uint32_t (*collect_visible)(const CollectVisible&);
+  // Returns how many blocks it took.
+  std::size_t (*add_covered)(AddCovered&);
   void (*interpolate)(const Interpolate&);
   void (*store_colors)(const StoreColors&);
 };

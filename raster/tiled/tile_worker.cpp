@@ -42,7 +42,7 @@ void TileWorker::draw_tile(std::uint32_t tile) {
   clock_.lap(Stage::store);
 }
 
-// The tile's bin, and one LocalPrimitive for what counts as one when quads are formed.
+// The tile's bin, and one LocalPrimitive for what counts as one when pixels are shaded.
 void TileWorker::gather_triangles(std::uint32_t tile) {
   triangles_.clear();
   locals_.clear();

@@ -1,5 +1,9 @@
-// What is visible in a tile, by blocks of 4 x 4 pixels.
+// What is visible in a tile, by blocks of 4 x 4 pixels, and its pixels one after another.
 #pragma once
+
+#if defined(__AVX512F__)
+#include <immintrin.h>
+#endif
 
 #include "cpu_shaders/runtime/numbers.h"
 #include "raster/tiled/kernels.h"
@@ -32,6 +36,50 @@ inline std::uint32_t collect_visible(const CollectVisible& call) {
     id.store(call.primitive_id + 16 * block);
   }
   return std::uint32_t(found - call.found);
+}
+
+// [m]: the bits that are set in m, the lowest first, and how many.
+struct SetBits {
+  alignas(16) std::uint32_t of[16][4];
+  std::uint32_t count[16];
+  constexpr SetBits() : of{}, count{} {
+    for (std::uint32_t m = 0; m < 16; ++m)
+      for (std::uint32_t i = 0; i < 4; ++i)
+        if (m >> i & 1) of[m][count[m]++] = i;
+  }
+};
+inline constexpr SetBits kSetBits;
+
+// Writes `first` + i for each bit i that is set, and up to 16 words in all. Returns how many bits were.
+TWINSHADE_INLINE std::uint32_t write_set_bits(std::uint32_t first, std::uint32_t bits, std::uint32_t* to) {
+#if defined(__AVX512F__)
+  const __m512i lanes = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+  const __m512i numbers = _mm512_add_epi32(lanes, _mm512_set1_epi32(static_cast<int>(first)));
+  _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), numbers));
+  return static_cast<std::uint32_t>(__builtin_popcount(bits));
+#else
+  using U = Simd<std::uint32_t, 4>;
+  std::uint32_t count = 0;
+  for (std::uint32_t quad = 0; quad < 4; ++quad) {
+    const std::uint32_t m = bits >> (4 * quad) & 15u;
+    (U::load(kSetBits.of[m]) + U(first + 4 * quad)).store(to + count);
+    count += kSetBits.count[m];
+  }
+  return count;
+#endif
+}
+
+inline std::size_t add_covered(AddCovered& call) {
+  std::uint32_t count = call.count, run_count = call.run_count;
+  std::size_t taken = 0;
+  for (; taken < call.block_count && count < call.enough; ++taken) {
+    const VisibleBlock& block = call.blocks[taken];
+    if (run_count == 0 || call.runs[run_count - 1].local != block.local) call.runs[run_count++] = {block.local, count};
+    count += write_set_bits(16u * block.block, block.coverage, call.pixels + count);
+  }
+  call.count = count;
+  call.run_count = run_count;
+  return taken;
 }
 
 }  // namespace TWINSHADE_ISA_NAMESPACE

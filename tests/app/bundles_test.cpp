@@ -38,6 +38,7 @@ TEST_CASE("lanes, tiles and threads draw the same frame") {
                                                                                        {"--isa", "baseline"},
                                                                                        {"--tile", "16"},
                                                                                        {"--tile", "32"},
+                                                                                       {"--tile", "128"},
                                                                                        {"--threads", "7"}}) {
     CAPTURE(options[0] + " " + options[1]);
     CHECK(render(options)["frame"] == frame);

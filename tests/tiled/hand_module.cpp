@@ -71,6 +71,26 @@ void writing_depth(const ShaderData& data, const ShadeCall& call) {
 }
 
 template <class R>
+void differencing(const ShaderData&, const ShadeCall& call) {
+  const R* x = component<R>(call.inputs, call, 0);
+  for (std::uint32_t i = 0; i < call.count; ++i) {
+    component<R>(call.outputs, call, 0)[i] = x[i | 1u] - x[i & ~1u];
+    component<R>(call.outputs, call, 1)[i] = x[i | 2u] - x[i & ~2u];
+    component<R>(call.outputs, call, 2)[i] = x[i];
+    component<R>(call.outputs, call, 3)[i] = component<R>(call.inputs, call, 1)[i];
+    call.kept[i] = call.live[i];
+  }
+}
+
+template <class R>
+void counting_helpers(const ShaderData& data, const ShadeCall& call) {
+  echo<R>(data, call);
+  std::uint32_t helpers = 0;
+  for (std::uint32_t i = 0; i < call.count; ++i) helpers += call.live[i] == 0;
+  for (std::uint32_t i = 0; i < call.count; ++i) component<R>(call.outputs, call, 3)[i] = R(helpers);
+}
+
+template <class R>
 void counting(const ShaderData& data, const ShadeCall& call) {
   std::uint32_t count;
   std::memcpy(&count, data.buffers[0].bytes, sizeof count);
@@ -177,6 +197,20 @@ const ShaderModule& frag_depth_module() {
     o.module.writes_depth = true;
     return o;
   }();
+  return owned.module;
+}
+
+const ShaderModule& derivatives_module() {
+  static const Owned owned = [] {
+    Owned o("derivatives", differencing<float>, differencing<double>);
+    o.module.uses_derivatives = true;
+    return o;
+  }();
+  return owned.module;
+}
+
+const ShaderModule& helpers_module() {
+  static const Owned owned("helpers", counting_helpers<float>, counting_helpers<double>);
   return owned.module;
 }
 

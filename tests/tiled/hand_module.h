@@ -27,6 +27,13 @@ const ShaderModule& discard_module();
 // in vec4 v_value; writes gl_FragDepth = v_value.y; out v_value.
 const ShaderModule& frag_depth_module();
 
+// in vec4 v_value; out vec4 (v_value.x of the quad's right pixel less the left one's in the own row, the same of the
+// upper and the lower one, v_value.xy): shaded in whole quads.
+const ShaderModule& derivatives_module();
+
+// in vec4 v_value; out vec4 (v_value.xyz, how many of the call's invocations were helpers).
+const ShaderModule& helpers_module();
+
 // in vec4 v_value; counts in a storage buffer "counter" the live invocations it ran; out vec4(count before the quad).
 const ShaderModule& side_effect_module();
 

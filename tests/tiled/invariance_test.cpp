@@ -57,8 +57,8 @@ TEST_CASE("lanes and instruction sets give the same bits") {
 
 TEST_CASE("thread counts and tile sizes give the same bits") {
   for (const AttributeMode mode : {AttributeMode::exact, AttributeMode::native})
-    for (const ShaderModule* module :
-         {&test::echo_module(), &test::built_ins_module(), &test::discard_module(), &test::frag_depth_module()}) {
+    for (const ShaderModule* module : {&test::echo_module(), &test::built_ins_module(), &test::discard_module(),
+                                       &test::frag_depth_module(), &test::derivatives_module()}) {
       const Bundle bundle = test::torture_bundle(517, 130, 5000, 2);
       CAPTURE(module->name);
       DrawOptions options;
@@ -73,6 +73,51 @@ TEST_CASE("thread counts and tile sizes give the same bits") {
           CHECK(hash(bundle, *module, options) == expected);
         }
     }
+}
+
+TEST_CASE("derivatives are differences within a quad of the attribute's plane") {
+  // One triangle over the whole frame, v_value.x = x / 64 of the frame's 64 pixels, v_value.y = y / 64: flat in depth.
+  Bundle bundle = test::empty_bundle(64, 64);
+  float positions[12] = {-1, -1, 0, 1, 3, -1, 0, 1, -1, 3, 0, 1};
+  test::Random random(1);
+  test::add_triangle(bundle, positions, random);
+  test::finish(bundle);
+  std::vector<float>& values = bundle.attributes[0].values;
+  const float corners[3][2] = {{0, 0}, {2, 0}, {0, 2}};
+  for (std::size_t v = 0; v < 3; ++v) {
+    values[4 * v] = corners[v][0] + corners[v][1];
+    values[4 * v + 1] = corners[v][1];
+  }
+  const Frame frame = draw_tiled(bundle, test::derivatives_module(), {});
+  for (std::size_t p = 0; p < 64 * 64; ++p) {
+    CHECK(frame.color[4 * p] == doctest::Approx(1.0 / 64).epsilon(1e-4));
+    CHECK(frame.color[4 * p + 1] == doctest::Approx(1.0 / 64).epsilon(1e-4));
+    CHECK(frame.color[4 * p + 2] == doctest::Approx((double(p % 64) + double(p / 64) + 1) / 64).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("without derivatives there are no helpers but those that fill up a tile's last vector") {
+  const Bundle bundle = test::torture_bundle(160, 128, 500, 6);
+  const Frame frame = draw_tiled(bundle, test::helpers_module(), {});
+  float most = 0;
+  for (std::size_t p = 0; p < frame.coverage.size(); ++p)
+    if (frame.coverage[p]) most = std::max(most, frame.color[4 * p + 3]);
+  CHECK(most < 16);
+}
+
+TEST_CASE("tiles are large where each thread has many, unless what the shader writes depends on their size") {
+  const auto tile_size = [](std::uint32_t width, std::uint32_t height, int threads, const ShaderModule& module) {
+    const Threads scope(threads);
+    Bundle bundle = test::inside_bundle(width, height, 1, 1);
+    bundle.buffers.push_back({"counter", true, std::vector<std::byte>(4)});
+    for (const auto& [key, value] : draw_tiled(bundle, module, {}).provenance)
+      if (key == "tile_size") return value;
+    return std::string();
+  };
+  CHECK(tile_size(1024, 512, 1, test::echo_module()) == "128");
+  CHECK(tile_size(1023, 384, 1, test::echo_module()) == "64");
+  CHECK(tile_size(1024, 512, 2, test::echo_module()) == "64");
+  CHECK(tile_size(1024, 512, 1, test::side_effect_module()) == "64");
 }
 
 TEST_CASE("drawing again gives the same frame") {

@@ -15,7 +15,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the bundle is written in memory order");
 
-constexpr std::string_view kMagic = "TWSBNDL1";
+constexpr std::string_view kMagic = "TWSBNDL2";
 constexpr std::size_t kHashLength = 64;
 
 class Writer {

@@ -1,7 +1,7 @@
-// The written-out bilinear filters of shaders/exact/bilinear.glsl, for lanes. Sums are done on whole texels, four
-// lanes' RGBA to a register group or one lane's four layers to a row, and transposed once, where the GLSL as written
-// would transpose for each texel; where all lanes read the same four texels there is nothing to transpose at all. Same
-// operations on the same operands in the same order: same bits, held to by a test.
+// The written-out bilinear filters of shaders/exact/bilinear.glsl and shaders/sphere_map/taps.glsl, for lanes. Sums are
+// done on whole texels, four lanes' RGBA to a register group or one lane's four layers to a row, and transposed once,
+// where the GLSL as written would transpose for each texel; where all lanes read the same four texels there is nothing
+// to transpose at all. Same operations on the same operands in the same order: same bits, held to by a test.
 #pragma once
 
 #include <array>
@@ -84,9 +84,9 @@ TWINSHADE_INLINE Taps<N::width> locate(const TextureView& view, const ExactTaps&
 
 // The taps that the struct SphereMapTaps of sphere_map/taps.glsl means (texel_00: x, y, layer of a map), of map `map`
 // of `maps` whose layers are interleaved.
-template <class N, class SphereMapTaps, class UI>
-TWINSHADE_INLINE Taps<N::width> locate(const TextureView& view, const SphereMapTaps& taps, const UI& maps,
-                                       const UI& map) {
+template <class N, class SphereMapTaps, class Maps, class Map>
+TWINSHADE_INLINE Taps<N::width> locate(const TextureView& view, const SphereMapTaps& taps, const Maps& maps,
+                                       const Map& map) {
   using twinshade::detail::clamp_to_size;
   using twinshade::detail::pitch;
   using I = typename N::I;
@@ -332,17 +332,17 @@ Colors5<N> colors_by_lane(const TextureView& view, const vec<typename N::F, 4>& 
 }
 
 // As the GLSL of sphere_map_fetch has it.
-template <class N, class I>
+template <class N, class Maps, class Map>
 TWINSHADE_INLINE vec<typename N::F, 3> sphere_map_color(const TextureView& view,
                                                         const vec<typename N::I, 3> (&texels)[4],
-                                                        const vec<typename N::F, 4>& weight, const I& maps,
-                                                        const I& map) {
-  using Lanes = typename N::I;
+                                                        const vec<typename N::F, 4>& weight, const Maps& maps,
+                                                        const Map& map) {
+  using Ints = typename N::I;
   const auto texel = [&](int tap) TWINSHADE_LAMBDA {
     using twinshade::detail::clamp_to_size;
     return twinshade::detail::fetch<typename N::real>(
         view, clamp_to_size(texels[tap].x, view.width), clamp_to_size(texels[tap].y, view.height),
-        clamp_to_size(texels[tap].z * Lanes(maps) + Lanes(map), view.layers));
+        clamp_to_size(texels[tap].z * Ints(maps) + Ints(map), view.layers));
   };
   return rgb((texel(0) * weight.x + texel(1) * weight.y) + (texel(2) * weight.z + texel(3) * weight.w));
 }
@@ -434,9 +434,9 @@ TWINSHADE_INLINE mat<typename N::F, 2, 4> exact_fetch_pair(Sampler2DArray<Real> 
   return {exact_fetch<N>(first, taps, layer), exact_fetch<N>(second, taps, layer)};
 }
 
-template <class N, class Real, class SphereMapTaps, Lane I>
+template <class N, class Real, class SphereMapTaps, Lane Maps, Lane Map>
 TWINSHADE_INLINE vec<typename N::F, 4> sphere_map_fetch(Sampler2DArray<Real> array, const SphereMapTaps& taps,
-                                                        const I& maps, const I& map) {
+                                                        const Maps& maps, const Map& map) {
   static_assert(is_simd<N>);
   return detail::filtered<N::width>(array.view->texels, detail::locate<N>(*array.view, taps, maps, map));
 }
@@ -471,25 +471,25 @@ TWINSHADE_INLINE Colors5<N> exact_fetch_5(Sampler2DArray<Real> maps, const Exact
   });
 }
 
-template <class N, class Real, class SphereMapTaps, Lane I>
-TWINSHADE_INLINE Colors5<N> sphere_map_fetch_5(Sampler2DArray<Real> array, const SphereMapTaps& taps, const I& maps,
-                                               const I& five) {
-  using Lanes = typename N::I;
+template <class N, class Real, class SphereMapTaps, Lane Maps, Lane Five>
+TWINSHADE_INLINE Colors5<N> sphere_map_fetch_5(Sampler2DArray<Real> array, const SphereMapTaps& taps, const Maps& maps,
+                                               const Five& five) {
+  using Ints = typename N::I;
   const TextureView& view = *array.view;
-  const vec<Lanes, 3> texels[4] = {vec<Lanes, 3>(taps.texel_00), vec<Lanes, 3>(taps.texel_10),
-                                   vec<Lanes, 3>(taps.texel_01), vec<Lanes, 3>(taps.texel_11)};
+  const vec<Ints, 3> texels[4] = {vec<Ints, 3>(taps.texel_00), vec<Ints, 3>(taps.texel_10), vec<Ints, 3>(taps.texel_01),
+                                  vec<Ints, 3>(taps.texel_11)};
   const vec<typename N::F, 4> weight(taps.weight);
   if (!detail::has_colors_together(view)) {
     const auto map = [&](int k) TWINSHADE_LAMBDA {
-      return detail::sphere_map_color<N>(view, texels, weight, maps, five * I(5) + I(k));
+      return detail::sphere_map_color<N>(view, texels, weight, maps, Ints(five) * Ints(5) + Ints(k));
     };
     return {{map(0), map(1), map(2), map(3), map(4)}};
   }
-  if constexpr (is_simd<N> && I::width == 1) {
+  if constexpr (is_simd<N> && Maps::width == 1 && Five::width == 1) {
     // Fives of maps are fives of layers, and every lane's is one that there is.
-    const Lanes fives(static_cast<std::int32_t>(view.texel_pitch / 16));
-    const auto group = [&](int tap) TWINSHADE_LAMBDA { return texels[tap].z * Lanes(maps.value() / 5) + Lanes(five); };
-    const auto inside = [&](int tap) TWINSHADE_LAMBDA { return group(tap) >= Lanes(0) & group(tap) < fives; };
+    const Ints fives(static_cast<std::int32_t>(view.texel_pitch / 16));
+    const auto group = [&](int tap) TWINSHADE_LAMBDA { return texels[tap].z * Ints(maps.value() / 5) + Ints(five); };
+    const auto inside = [&](int tap) TWINSHADE_LAMBDA { return group(tap) >= Ints(0) & group(tap) < fives; };
     if (maps.value() % 5 == 0 && five.value() >= 0 && five.value() < maps.value() / 5 &&
         all(inside(0) & inside(1) & inside(2) & inside(3))) {
       using U = typename N::U;
@@ -505,9 +505,9 @@ TWINSHADE_INLINE Colors5<N> sphere_map_fetch_5(Sampler2DArray<Real> array, const
   return detail::colors_by_lane<N>(view, weight, [&](int lane) {
     std::array<detail::LaneTexel, 4> at;
     for (std::size_t tap = 0; tap < 4; ++tap) {
-      const std::int32_t slice = detail::times(texels[tap].z.lane(lane), Lanes(maps).lane(lane));
+      const std::int32_t slice = detail::times(texels[tap].z.lane(lane), Ints(maps).lane(lane));
       at[tap] = {texels[tap].x.lane(lane), texels[tap].y.lane(lane),
-                 detail::plus(slice, detail::times(Lanes(five).lane(lane), 5))};
+                 detail::plus(slice, detail::times(Ints(five).lane(lane), 5))};
     }
     return at;
   });

@@ -1,7 +1,7 @@
 // Colours of L x H tables towards a normal: sphere maps of the texture array LIGHT_TABLES, RGB, interleaved as sphere_map_fetch has
 // them, their number filled up to whole fives unless there is but one. Map 0 is the mean's, where there is one.
 // Includer defines LIGHT_TABLES; VISIBILITY_COUNT, the maps beside the mean's; VISIBILITY_MEAN, 1 where there is one. After a
-// sphere map. light_tables_packed.glsl has the same functions.
+// sphere map. light_tables_packed.glsl is its rival: LIGHT_TABLE_FIVES says which.
 
 #define LIGHT_TABLE_FIVES 1
 

@@ -1,7 +1,7 @@
 // Irradiance as visibility's weights times the colours of L x H tables towards the normal, world space. Iwanicki and Sloan, Normal
 // Mapping with Low-Frequency Precomputed Visibility, JGT 2012, sections 3.1 and 3.2. Includer defines VISIBILITY_COUNT, the weights,
 // at least 4, and VISIBILITY_MEAN, 1 where one row belongs to the mean, whose weight is 1. After visibility_lightmap.glsl or
-// visibility_vertex.glsl, a sphere map and light_tables_layers.glsl or light_tables_packed.glsl.
+// visibility_vertex.glsl, a sphere map and light_tables_layers.glsl or light_tables_packed.glsl, whose LIGHT_TABLE_FIVES says how many rows are read at once.
 
 // n: unit normal.
 #if LIGHT_TABLE_FIVES

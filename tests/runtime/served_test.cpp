@@ -75,9 +75,11 @@ uniform sampler2DArray maps;
 in vec2 uv;
 in float layer;
 out vec4 one;
+out vec4 by_lane;
 void main() {
   SphereMapTaps taps = sphere_map_taps(vec3(uv - 0.5, layer - 1.5), textureSize(maps, 0).x);
   one = sphere_map_fetch(maps, taps, 4, 3);
+  by_lane = sphere_map_fetch(maps, taps, 4, int(layer));
 }
 )";
 
@@ -105,16 +107,20 @@ constexpr const char* kFiveMaps = R"(
 uniform sampler2DArray maps;
 in vec2 uv;
 in float layer;
-out vec3 colors[15];
+out vec3 colors[25];
 void main() {
   SphereMapTaps taps = sphere_map_taps(vec3(uv - 0.5, layer - 1.5), textureSize(maps, 0).x);
   vec3 whole[5] = sphere_map_fetch_5(maps, taps, textureSize(maps, 0).z / SPHERE_MAP_LAYERS, 0);
   vec3 uneven[5] = sphere_map_fetch_5(maps, taps, 3, 0);
   vec3 beyond[5] = sphere_map_fetch_5(maps, taps, 5, 1);
+  vec3 second[5] = sphere_map_fetch_5(maps, taps, 10, 1);
+  vec3 by_lane[5] = sphere_map_fetch_5(maps, taps, 10, int(layer));
   for (int k = 0; k < 5; ++k) {
     colors[k] = whole[k];
     colors[5 + k] = uneven[k];
     colors[10 + k] = beyond[k];
+    colors[15 + k] = second[k];
+    colors[20 + k] = by_lane[k];
   }
 }
 )";
@@ -282,6 +288,44 @@ TEST_CASE("fetches of five layers' colours give the bits of their GLSL, their co
         check_served(kFiveMaps, "sphere_map_fetch_5", inputs, std::array{view}, std::array{array.view}, numbers);
       }
   }
+}
+
+TEST_CASE("in double five layers' colours are sums in double, their colours side by side in memory or not") {
+  const ManyLayers array(9);
+  SideBySide fives;
+  const TextureView together = fives.colors(array.view);
+  const ShaderModule& module =
+      load_module(resolve_shader("five_in_double", kFiveLayers, "five_in_double.frag"), Number::float64);
+  const auto entry = std::find_if(module.entries, module.entries + module.entry_count,
+                                  [](const ShaderEntry& e) { return e.number == Number::float64; });
+  REQUIRE(entry != module.entries + module.entry_count);
+  constexpr std::uint32_t kRows = 16;
+  struct alignas(64) Arrays {
+    double inputs[3 * kRows], outputs[75 * kRows], frag_coord[4 * kRows], depth[kRows];
+    std::uint32_t live[kRows], front[kRows], id[kRows], kept[kRows];
+  };
+  const auto run = [&](const TextureView& view) {
+    Arrays a{};
+    for (std::uint32_t i = 0; i < kRows; ++i) {
+      a.inputs[i] = 0.3 + 0.01 * i;
+      a.inputs[kRows + i] = 0.7;
+      a.inputs[2 * kRows + i] = i % 3;
+      a.live[i] = ~0u;
+    }
+    entry->shade(ShaderData{nullptr, &view, nullptr},
+                 ShadeCall{kRows, kRows, a.inputs, a.frag_coord, a.live, a.front, a.id, a.outputs, a.depth, a.kept});
+    return std::vector<double>(a.outputs, a.outputs + 75 * kRows);
+  };
+  const auto apart = run(array.view);
+  CHECK(apart == run(together));
+  // Layer 7, green, first row: between texels 0 and 1 of rows 2 and 3. The taps' weights are in double, too.
+  const auto texel = [](int x, int y) {
+    return static_cast<double>(static_cast<float>(((7 * 4 + y) * 4 + x) * 4 + 1) * 0.37f - 9);
+  };
+  const double u = 0.3 * 4 - 0.5, v = 0.7 * 4 - 0.5 - 2;
+  const double expected =
+      (texel(0, 2) * (1 - u) + texel(1, 2) * u) * (1 - v) + (texel(0, 3) * (1 - u) + texel(1, 3) * u) * v;
+  CHECK(std::fabs(apart[((2 * 5 + 2) * 3 + 1) * kRows] - expected) < 1e-12);
 }
 
 TEST_CASE("the reflection says how the layers of a sampler should lie") {

@@ -36,7 +36,8 @@ class Counter {
     if (info.function->name == free_) return counts_[id];
     StoredConstants stored;
     OperationCount count = list(info, info.body.list, stored);
-    if (fetches_five_colors(program_.module, *info.function)) {  // as served: a cache line, 15 floats of it used, from each of four places
+    if (fetches_five_colors(program_.module, *info.function)) {
+      // As served: a cache line from each of four places, 15 floats of it used.
       count.texels = 16;
       count.multiplications = 60;
       count.additions = 45;

@@ -55,8 +55,7 @@ void Batch::clear() {
 }
 
 void Batch::shade(const LocalPrimitive* primitives, StageClock& clock) {
-  // Whole vectors of 16: dead invocations repeat the last one. More than are shaded now are there in whole vectors
-  // only.
+  // Whole vectors of 16: dead invocations repeat the last one.
   const std::uint32_t count = shaded(), padded = (count + 15) / 16 * 16;
   if (!quads_) std::fill_n(live_, count, ~0u);
   for (std::uint32_t k = count; k < padded; ++k) {

@@ -13,7 +13,7 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-std::string quoted(std::string_view name) {
+std::string in_quotes(std::string_view name) {
   std::string result = "'";
   for (char c : name) result += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
   return result + "'";
@@ -57,11 +57,11 @@ std::string unknown_name_message(std::string_view kind, std::string_view name,
   std::stable_sort(near.begin(), near.end(), [](const Near& a, const Near& b) { return a.distance < b.distance; });
   if (near.size() > 3) near.resize(3);
 
-  std::string message = "unknown " + std::string(kind) + " " + quoted(name);
+  std::string message = "unknown " + std::string(kind) + " " + in_quotes(name);
   if (!near.empty()) {
     message += "; did you mean ";
     for (std::size_t i = 0; i < near.size(); ++i)
-      message += (i == 0 ? "" : i + 1 == near.size() ? " or " : ", ") + quoted(*near[i].name);
+      message += (i == 0 ? "" : i + 1 == near.size() ? " or " : ", ") + in_quotes(*near[i].name);
     return message + "?";
   }
   if (candidates.empty()) return message;

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "cpu_shaders/machine.h"
 #include "evaluate/bind_table.h"
 #include "evaluate/cpu_rows.h"
 #include "evaluate/prepared_shaders.h"
@@ -16,7 +17,6 @@ namespace twinshade {
 namespace {
 
 constexpr const char* kNames[] = {"cpu", "egl", "osmesa", "softpipe", "gpu"};
-constexpr const char* kIsaNames[] = {"baseline", "avx2", "avx512"};
 
 static_assert(kMostTableRows <= kMostGridRows);
 

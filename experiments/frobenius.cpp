@@ -12,7 +12,7 @@
 namespace twinshade {
 namespace {
 
-constexpr int kLowestOrder = 2, kHighestOrder = 5;
+constexpr int kLeastBands = 2, kMostBands = 5;
 
 std::string why_not(const TechniqueInfo& basis) {
   if (!basis.linear) return "it is not linear, so it has no Gram matrix";
@@ -30,7 +30,7 @@ std::string why_not(const TechniqueInfo& basis) {
 // Norms for orders 2 to 5, the harmonics counted from the first.
 std::vector<double> norms(const Matrix& residual) {
   std::vector<double> list;
-  for (int order = kLowestOrder; order <= kHighestOrder; ++order) {
+  for (int order = kLeastBands; order <= kMostBands; ++order) {
     double sum = 0;
     for (int i = 0; i < order * order; ++i)
       for (int k = 0; k < order * order; ++k) sum += residual(i, k) * residual(i, k);
@@ -70,7 +70,7 @@ ExperimentResult run_frobenius(const ExperimentOptions& options) {
     const Matrix residual = Matrix::Identity(harmonics.count, harmonics.count) -
                             products * Matrix(gram_part.llt().solve(products.transpose()));
     map.rows.emplace_back(basis->name);
-    int order = kLowestOrder;
+    int order = kLeastBands;
     for (const double norm : norms(residual)) {
       result.rows.add({std::string(basis->name), std::int64_t(order++), norm, number_cell(condition)});
       map.values.push_back(norm);

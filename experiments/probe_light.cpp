@@ -19,7 +19,7 @@ namespace twinshade {
 namespace {
 
 constexpr int kFewestCellPoints = 4;                 // of icosahedral_quadrature: 3,840 normals
-constexpr std::uint32_t kWidth = 128, kHeight = 64;  // of pictures
+constexpr std::uint32_t kPictureWidth = 128, kPictureHeight = 64;  // of pictures
 constexpr std::size_t kMostProducts = 1600000000;    // of pixels and normals: some seconds
 
 std::vector<double> over_pi(std::vector<double> values) {
@@ -58,13 +58,13 @@ ProbeLight measured_light(const Probe& probe, int cell_points) {
 ProbeLight drawn_light(const Probe& probe) {
   ProbeLight light;
   light.name = probe.name;
-  light.width = kWidth;
-  light.height = kHeight;
+  light.width = kPictureWidth;
+  light.height = kPictureHeight;
   Environment grid;  // where a lat-long picture of this size has its pixels
-  grid.width = kWidth;
-  grid.height = kHeight;
-  for (std::uint32_t y = 0; y < kHeight; ++y)
-    for (std::uint32_t x = 0; x < kWidth; ++x) light.normals.push_back(grid.pixel_direction(x, y));
+  grid.width = kPictureWidth;
+  grid.height = kPictureHeight;
+  for (std::uint32_t y = 0; y < kPictureHeight; ++y)
+    for (std::uint32_t x = 0; x < kPictureWidth; ++x) light.normals.push_back(grid.pixel_direction(x, y));
   light.irradiance = over_pi(environment_irradiance(probe.environment, light.normals));
   return light;
 }

@@ -7,7 +7,7 @@
 namespace twinshade {
 namespace {
 
-constexpr std::uint32_t kFrameWidth = 256;
+constexpr std::uint32_t kDrawingWidth = 256;
 constexpr int kPerFrame = 4;  // functions that a pixel's four channels hold
 
 // Two triangles over the whole frame.
@@ -37,11 +37,11 @@ std::vector<float> draw_reads(const std::string& machine, const DrawFunction& dr
                               std::span<const glm::vec3> directions) {
   TWINSHADE_CHECK_EQ(texels.size(), std::size_t(grid.texels()) * std::size_t(functions));
   const SphereMapInfo& map = grid.map();
-  const std::uint32_t height = std::uint32_t((directions.size() + kFrameWidth - 1) / kFrameWidth);
-  Bundle bundle = whole_frame(kFrameWidth, height);
+  const std::uint32_t height = std::uint32_t((directions.size() + kDrawingWidth - 1) / kDrawingWidth);
+  Bundle bundle = whole_frame(kDrawingWidth, height);
 
-  Texture looks{"directions", TextureKind::two_d, kFrameWidth, height, 1, Filter::nearest, Wrap::clamp_to_edge, {}};
-  looks.texels.assign(std::size_t(kFrameWidth) * height * 4, 1.0f);
+  Texture looks{"directions", TextureKind::two_d, kDrawingWidth, height, 1, Filter::nearest, Wrap::clamp_to_edge, {}};
+  looks.texels.assign(std::size_t(kDrawingWidth) * height * 4, 1.0f);
   for (std::size_t i = 0; i < directions.size(); ++i)
     for (int c = 0; c < 3; ++c) looks.texels[4 * i + std::size_t(c)] = directions[i][c];
   bundle.textures.push_back(std::move(looks));

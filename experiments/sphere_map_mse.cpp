@@ -20,7 +20,7 @@
 namespace twinshade {
 namespace {
 
-constexpr int kHighestOrder = 6, kFunctions = kHighestOrder * kHighestOrder;
+constexpr int kFunctions = kHighestOrder * kHighestOrder;
 constexpr int kDefaultPoints = 1000000, kDefaultDrawnPoints = 65536;
 constexpr std::size_t kBlock = 4096;
 constexpr int kSlopeFrom = 300;  // texels: where the slopes of the figure begin to be straight
@@ -29,7 +29,7 @@ constexpr int kDefaultOrders[] = {3, 6};
 constexpr TexelStorage kStorages[] = {TexelStorage::float32, TexelStorage::half, TexelStorage::unorm8};
 constexpr std::size_t kStorageCount = std::size(kStorages);
 
-enum RandomDomain : std::uint64_t { kHeight = 64, kAzimuth };
+enum PointDomain : std::uint64_t { kPointHeight = 64, kPointAzimuth };
 
 using Sums = std::array<double, kFunctions>;
 
@@ -43,8 +43,8 @@ std::vector<glm::dvec3> random_directions(std::uint64_t seed, std::size_t points
                                           std::size_t count) {
   std::vector<glm::dvec3> directions(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const double z = 2 * ((double(first + i) + unit_real(random_bits(seed, kHeight, first + i))) / double(points)) - 1;
-    const double phi = 2 * portable::kPi * unit_real(random_bits(seed, kAzimuth, first + i));
+    const double z = 2 * ((double(first + i) + unit_real(random_bits(seed, kPointHeight, first + i))) / double(points)) - 1;
+    const double phi = 2 * portable::kPi * unit_real(random_bits(seed, kPointAzimuth, first + i));
     const double radius = std::sqrt(1 - z * z);
     directions[i] = {radius * portable::cos(phi), radius * portable::sin(phi), z};
   }

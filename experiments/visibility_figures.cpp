@@ -15,6 +15,7 @@
 #include "experiments/tiles.h"
 #include "golden/pictures.h"
 #include "lighting/environment_light.h"
+#include "lighting/radiance_basis.h"
 #include "lighting/visibility_bundle.h"
 #include "scenes/scene.h"
 
@@ -24,7 +25,7 @@ namespace {
 constexpr std::uint32_t kWidth = 640, kHeight = 400, kLightmap = 256;
 constexpr double kTileScale = 0.5;   // of a drawing's pixel; PNG files have twice as many
 constexpr double kMiddleGrey = 0.4;  // what the mean radiance is shown at, before the tone curve
-constexpr int kDefaultRays = 512, kReferenceRays = 256, kHighestOrder = 6;
+constexpr int kDefaultRays = 512, kReferenceRays = 256;
 constexpr int kOrders[] = {4, 6};
 constexpr double kTurn = 90;  // degrees about the vertical
 constexpr const char* kComponents[] = {"pca4", "pca8", "pca12", "pca16", "pca24"};

@@ -17,6 +17,7 @@
 #include "lighting/fill.h"
 #include "lighting/progress.h"
 #include "lighting/random.h"
+#include "lighting/random_domains.h"
 #include "lighting/ray_scene.h"
 #include "lighting/receivers.h"
 
@@ -24,15 +25,10 @@ namespace twinshade {
 namespace {
 
 constexpr int kValues = kRadianceCount * 3;
-constexpr std::size_t kChunk = 64;                             // receivers handed to a thread at a time
 constexpr std::size_t kRememberedHits = std::size_t(1) << 28;  // 1 GiB
-constexpr int kGutter = 8;                                     // texels
-constexpr double kInsideShare = 0.5;                           // of rays that meet back faces
-
-enum RandomDomain : std::uint64_t { kChooseSet = 16, kChooseRay, kChooseVertex, kChooseBright, kPlaceBright };
 
 // Sum of radiance times DirectionSets' weights: in float for a few rays, then in double.
-class Projection {
+class RayProjection {
  public:
   void add(const float* weights, const glm::vec3& radiance) {
     for (int k = 0; k < kWidth; ++k) part_[0][k] += weights[k] * radiance.r;
@@ -97,8 +93,8 @@ class Gatherer {
     if (remembered_ > 0) {
       const std::size_t count = receivers_.list.size();
       Progress progress("bake: bounce", "rays", count * remembered_, options_.show_progress);
-      parallel_for((count + kChunk - 1) / kChunk, [&](std::size_t chunk, int) {
-        const std::size_t first = chunk * kChunk, last = std::min(count, first + kChunk);
+      parallel_for((count + kReceiversAtOnce - 1) / kReceiversAtOnce, [&](std::size_t chunk, int) {
+        const std::size_t first = chunk * kReceiversAtOnce, last = std::min(count, first + kReceiversAtOnce);
         for (std::size_t i = first; i < last; ++i) gather_bounce(i);
         progress.add((last - first) * remembered_);
       });
@@ -114,10 +110,10 @@ class Gatherer {
 
  private:
   FillPlan direct() {
-    const std::size_t count = receivers_.list.size(), chunks = (count + kChunk - 1) / kChunk;
+    const std::size_t count = receivers_.list.size(), chunks = (count + kReceiversAtOnce - 1) / kReceiversAtOnce;
     Progress progress("bake: direct light", "rays", count * (options_.rays + bright_samples_), options_.show_progress);
     parallel_for(chunks, [&](std::size_t chunk, int) {
-      const std::size_t first = chunk * kChunk, last = std::min(count, first + kChunk);
+      const std::size_t first = chunk * kReceiversAtOnce, last = std::min(count, first + kReceiversAtOnce);
       gather_direct(first, last);
       progress.add((last - first) * (options_.rays + bright_samples_));
     });
@@ -128,7 +124,7 @@ class Gatherer {
   }
 
   std::uint32_t set_of(std::size_t i) const {
-    return std::uint32_t(random_bits(options_.seed, kChooseSet, receivers_.list[i].cell) % sets_.count());
+    return std::uint32_t(random_bits(options_.seed, kGatherSet, receivers_.list[i].cell) % sets_.count());
   }
   // The rays of [first, last) stand for one remembered ray: which?
   std::uint32_t remembered_ray(std::size_t i, std::uint32_t slot, std::uint32_t& first, std::uint32_t& last) const {
@@ -137,11 +133,11 @@ class Gatherer {
     last = std::uint32_t((slot + 1) * rays / remembered_);
     if (last - first == 1) return first;
     return first +
-           std::uint32_t(random_bits(options_.seed, kChooseRay, receivers_.list[i].cell, slot) % (last - first));
+           std::uint32_t(random_bits(options_.seed, kGatherRay, receivers_.list[i].cell, slot) % (last - first));
   }
 
   void gather_direct(std::size_t first, std::size_t last) {
-    std::vector<Projection> sums(last - first);
+    std::vector<RayProjection> sums(last - first);
     std::vector<glm::dvec3> directions;
     std::vector<SeenBright> seen;
     for (std::size_t i = first; i < last; ++i) {
@@ -171,7 +167,7 @@ class Gatherer {
     }
   }
 
-  void trace_hemisphere(std::size_t i, Projection& sum) {
+  void trace_hemisphere(std::size_t i, RayProjection& sum) {
     const Receiver& receiver = receivers_.list[i];
     const std::uint32_t set = set_of(i);
     const glm::dvec3* directions = sets_.directions(set);
@@ -193,7 +189,7 @@ class Gatherer {
           ++met_back;
         else if (ray == slot_ray)
           source = receivers_.at(scene_, hit.triangle, hit.b1, hit.b2,
-                                 unit_real(random_bits(options_.seed, kChooseVertex, receiver.cell, ray)));
+                                 unit_real(random_bits(options_.seed, kGatherVertex, receiver.cell, ray)));
       }
       if (ray == slot_ray) hits_[i * remembered_ + (slot - 1)] = source;
     }
@@ -204,9 +200,9 @@ class Gatherer {
   void trace_bright(std::size_t i, std::uint32_t place, std::vector<glm::dvec3>& directions,
                     std::vector<SeenBright>& seen) {
     const Receiver& receiver = receivers_.list[i];
-    const double offset = unit_real(random_bits(options_.seed, kChooseBright, receiver.cell));
+    const double offset = unit_real(random_bits(options_.seed, kGatherBright, receiver.cell));
     for (std::uint32_t s = 0; s < bright_samples_; ++s) {
-      const std::uint64_t bits = random_bits(options_.seed, kPlaceBright, receiver.cell, s);
+      const std::uint64_t bits = random_bits(options_.seed, kGatherPlace, receiver.cell, s);
       const EnvironmentSampler::Sample sample = light_.bright(
           (s + offset) / bright_samples_, double(bits >> 32) * 0x1p-32, double(bits & 0xffffffffu) * 0x1p-32);
       const glm::dvec3 local(glm::dot(sample.direction, glm::dvec3(receiver.tangent)),
@@ -232,7 +228,7 @@ class Gatherer {
   void gather_bounce(std::size_t i) {
     const std::uint32_t cell = receivers_.list[i].cell;
     const float* weights = sets_.weights(set_of(i));
-    Projection sum;
+    RayProjection sum;
     for (std::uint32_t slot = 0; slot < remembered_; ++slot) {
       const std::uint32_t source = hits_[i * remembered_ + slot];
       if (source == kNoReceiver) continue;

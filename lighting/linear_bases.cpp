@@ -63,9 +63,9 @@ Matrix cosine_matrix(const TechniqueInfo& basis) {
   const int count = basis.count;
   const std::size_t rows = outer.weights.size();
   std::vector<double> lit(rows * count, 0.0);  // irradiance at outer point p under radiance b_j
-  constexpr std::size_t kBlock = 16;
-  parallel_for((rows + kBlock - 1) / kBlock, [&](std::size_t block, int) {
-    for (std::size_t p = block * kBlock; p < std::min(rows, (block + 1) * kBlock); ++p)
+  constexpr std::size_t kRowsAtOnce = 16;
+  parallel_for((rows + kRowsAtOnce - 1) / kRowsAtOnce, [&](std::size_t block, int) {
+    for (std::size_t p = block * kRowsAtOnce; p < std::min(rows, (block + 1) * kRowsAtOnce); ++p)
       for (std::size_t q = 0; q < inner.weights.size(); ++q) {
         const double cosine = glm::dot(outer.directions[p], inner.directions[q]);
         if (!(cosine > 0)) continue;

@@ -49,9 +49,9 @@ std::vector<float> coefficients(const LightBake& light, const TechniqueInfo& bas
   const Projector projector(basis, light.radiance_count);
   const std::size_t cells = std::size_t(light.width) * light.height, count = std::size_t(basis.count);
   std::vector<float> values(count * cells * stride, 0.0f);
-  constexpr std::size_t kBlock = 256;
-  parallel_for((cells + kBlock - 1) / kBlock, [&](std::size_t block, int) {
-    const std::size_t first = block * kBlock, length = std::min(kBlock, cells - first);
+  constexpr std::size_t kCellsOfBlock = 256;
+  parallel_for((cells + kCellsOfBlock - 1) / kCellsOfBlock, [&](std::size_t block, int) {
+    const std::size_t first = block * kCellsOfBlock, length = std::min(kCellsOfBlock, cells - first);
     const float* from = light.sh.data() + first * numbers;
     const std::vector<double> radiance(from, from + length * numbers);
     std::vector<double> projected(length * count * 3);

@@ -11,18 +11,18 @@
 namespace twinshade {
 namespace {
 
-constexpr std::size_t kBlock = 4096;  // cells
+constexpr std::size_t kCellsAtOnce = 4096;  // cells
 // Variance below this part of the mean square is rounding.
 constexpr double kNoVariance = 1e-13;
 
 // Calls body(cell, sums) for all cells and adds the sums of blocks in order, whatever the number of threads.
 template <class Body>
 std::vector<double> blockwise_sum(std::size_t cells, std::size_t size, const Body& body) {
-  const std::size_t blocks = (cells + kBlock - 1) / kBlock;
+  const std::size_t blocks = (cells + kCellsAtOnce - 1) / kCellsAtOnce;
   std::vector<std::vector<double>> parts(blocks);
   parallel_for(blocks, [&](std::size_t block, int) {
     parts[block].assign(size, 0.0);
-    for (std::size_t cell = block * kBlock; cell < std::min(cells, (block + 1) * kBlock); ++cell)
+    for (std::size_t cell = block * kCellsAtOnce; cell < std::min(cells, (block + 1) * kCellsAtOnce); ++cell)
       body(cell, parts[block].data());
   });
   std::vector<double> sum(size, 0.0);
@@ -129,8 +129,8 @@ std::vector<float> project_onto(std::span<const double> mean, std::size_t compon
                                 std::span<const float> values, std::size_t stride) {
   const std::size_t dimension = mean.size(), cells = stride == 0 ? 0 : values.size() / stride;
   std::vector<float> weights(cells * components);
-  parallel_for((cells + kBlock - 1) / kBlock, [&](std::size_t block, int) {
-    for (std::size_t cell = block * kBlock; cell < std::min(cells, (block + 1) * kBlock); ++cell) {
+  parallel_for((cells + kCellsAtOnce - 1) / kCellsAtOnce, [&](std::size_t block, int) {
+    for (std::size_t cell = block * kCellsAtOnce; cell < std::min(cells, (block + 1) * kCellsAtOnce); ++cell) {
       const double* duals = duals_of(cell);
       for (std::size_t m = 0; m < components; ++m) {
         double sum = 0;

@@ -43,8 +43,6 @@ void add_ring(Quadrature& out, double z, double weight, int spokes) {
   }
 }
 
-glm::dvec3 unit(const glm::dvec3& v) { return v / std::sqrt(glm::dot(v, v)); }
-
 // The spherical triangle apex, a, b: (u, v) of [0, 1]^2 to the point apex + u ((a - apex) + v (b - a)) of the flat one.
 void add_cell(Quadrature& out, const std::vector<Node>& nodes, const glm::dvec3& apex, const glm::dvec3& a,
               const glm::dvec3& b) {

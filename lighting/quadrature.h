@@ -2,12 +2,15 @@
 // bases are projected with, whose kinks and roots they take into account.
 #pragma once
 
+#include <cmath>
 #include <glm/glm.hpp>
 #include <vector>
 
 #include "lighting/registry.h"
 
 namespace twinshade {
+
+inline glm::dvec3 unit(const glm::dvec3& v) { return v / std::sqrt(glm::dot(v, v)); }
 
 struct Quadrature {
   std::vector<glm::dvec3> directions;

@@ -14,7 +14,8 @@ namespace twinshade {
 
 inline constexpr int kRadianceCount = 25;        // lightmaps, vertices
 inline constexpr int kVolumeRadianceCount = 36;  // volumes
-inline constexpr int kMostRadianceCount = 36;
+inline constexpr int kHighestOrder = 6;          // bands
+inline constexpr int kMostRadianceCount = kHighestOrder * kHighestOrder;
 
 // The basis of radiance with so many functions: 4, 9, 16, 25 or 36, l < 2 to l < 6.
 const TechniqueInfo& radiance_technique(int count);

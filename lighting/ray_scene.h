@@ -12,6 +12,12 @@ namespace twinshade {
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 
+// How far off a surface rays from it begin, as part of the scene's diagonal: far above a float's rounding there, far
+// below anything one sees.
+inline constexpr double kRayLift = 0x1p-16;
+// A point is inside something if more than this part of the closest hits around it are back faces.
+inline constexpr double kInsideShare = 0.5;
+
 struct RayHit {
   std::uint32_t triangle = kNoTriangle;
   double t = 0;           // in lengths of the direction

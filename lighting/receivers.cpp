@@ -8,9 +8,6 @@
 namespace twinshade {
 namespace {
 
-// Sites are lifted off the surface by this part of the scene's diagonal: far above a float's rounding there, far below
-// anything one sees.
-constexpr double kLift = 0x1p-16;
 // How far in from its corner a vertex' site is, as barycentric weight of each of the other two corners.
 constexpr double kInset = 1.0 / 64;
 constexpr std::size_t kMaxSites = 8;
@@ -19,8 +16,6 @@ bool usable(const glm::dvec3& v) {
   const double square = glm::dot(v, v);
   return std::isfinite(square) && square > 1e-24;
 }
-
-glm::dvec3 unit(const glm::dvec3& v) { return v / std::sqrt(glm::dot(v, v)); }
 
 template <class Vector>
 auto blend(const Vector* values, const std::uint32_t* corners, double b1, double b2) {
@@ -57,7 +52,7 @@ glm::vec3 albedo_at(const Scene& scene, std::uint32_t triangle, double b1, doubl
 
 class Builder {
  public:
-  Builder(const Scene& scene, const RayScene& rays) : scene_(scene), rays_(rays), lift_(rays.diagonal() * kLift) {}
+  Builder(const Scene& scene, const RayScene& rays) : scene_(scene), rays_(rays), lift_(rays.diagonal() * kRayLift) {}
 
   // False where nothing can stand on the triangle.
   bool add_site(Receivers& out, std::uint32_t triangle, double b1, double b2) const {

@@ -26,6 +26,8 @@ struct Receiver {
 };
 
 inline constexpr std::uint32_t kNoReceiver = 0xffffffffu;
+inline constexpr std::size_t kReceiversAtOnce = 64;  // handed to a thread at a time
+inline constexpr int kGutter = 8;                    // texels around charts that are filled
 
 struct Receivers {
   CoefficientStorage storage = CoefficientStorage::lightmap;

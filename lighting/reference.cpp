@@ -12,15 +12,13 @@
 #include "lighting/progress.h"
 #include "lighting/radiance_basis.h"
 #include "lighting/random.h"
+#include "lighting/random_domains.h"
 #include "lighting/receivers.h"
 
 namespace twinshade {
 namespace {
 
-constexpr std::size_t kChunk = 256;  // points handed to a thread at a time
-constexpr double kLift = 0x1p-16;    // of the scene's diagonal, off the surface
-
-enum RandomDomain : std::uint64_t { kScramble = 48, kJitter, kChooseBright, kPlaceBright };
+constexpr std::size_t kPointsAtOnce = 256;  // points handed to a thread at a time
 
 class Tracer {
  public:
@@ -32,7 +30,7 @@ class Tracer {
 
   glm::vec3 radiance(const ShadedPoint& point, std::uint64_t index) const {
     const glm::dvec3 plane = rays_.geometric_normal(point.triangle);
-    const glm::vec3 origin(glm::dvec3(point.position) + plane * (rays_.diagonal() * kLift));
+    const glm::vec3 origin(glm::dvec3(point.position) + plane * (rays_.diagonal() * kRayLift));
     const auto sees = [&](const glm::vec3& direction) {
       return glm::dot(glm::dvec3(direction), plane) > 0 && !rays_.occluded(origin, direction, point.triangle);
     };
@@ -40,19 +38,19 @@ class Tracer {
     // Directions in proportion to the cosine: z = sqrt(1 - a) of a stratified a
     const glm::dvec3 normal(point.normal);
     const glm::dmat3 frame = tangent_frame(normal, glm::dvec3(0), 1, plane);
-    const std::uint32_t scramble = std::uint32_t(random_bits(options_.seed, kScramble, index));
+    const std::uint32_t scramble = std::uint32_t(random_bits(options_.seed, kReferenceScramble, index));
     glm::dvec3 irradiance(0);
     for (std::uint32_t ray = 0; ray < options_.rays; ++ray) {
-      const double a = (ray + unit_real(random_bits(options_.seed, kJitter, index, ray))) / options_.rays;
+      const double a = (ray + unit_real(random_bits(options_.seed, kReferenceJitter, index, ray))) / options_.rays;
       const glm::vec3 direction(
           frame * hemisphere_direction(std::sqrt(1 - a), scrambled_radical_inverse(ray, scramble) * 0x1p-32));
       if (sees(direction)) irradiance += glm::dvec3(light_.rest(direction));
     }
     irradiance *= portable::kPi / options_.rays;
 
-    const double offset = unit_real(random_bits(options_.seed, kChooseBright, index));
+    const double offset = unit_real(random_bits(options_.seed, kReferenceBright, index));
     for (std::uint32_t s = 0; s < bright_samples_; ++s) {
-      const std::uint64_t bits = random_bits(options_.seed, kPlaceBright, index, s);
+      const std::uint64_t bits = random_bits(options_.seed, kReferencePlace, index, s);
       const EnvironmentSampler::Sample sample = light_.bright(
           (s + offset) / bright_samples_, double(bits >> 32) * 0x1p-32, double(bits & 0xffffffffu) * 0x1p-32);
       const double cosine = glm::dot(sample.direction, frame[2]);
@@ -79,8 +77,8 @@ std::vector<glm::vec3> reference_radiance(const Scene& scene, const Environment&
   const Tracer tracer(scene, environment, options);
   std::vector<glm::vec3> radiance(points.size());
   Progress progress("reference", "rays", points.size() * tracer.rays_per_point(), options.show_progress);
-  parallel_for((points.size() + kChunk - 1) / kChunk, [&](std::size_t chunk, int) {
-    const std::size_t first = chunk * kChunk, last = std::min(points.size(), first + kChunk);
+  parallel_for((points.size() + kPointsAtOnce - 1) / kPointsAtOnce, [&](std::size_t chunk, int) {
+    const std::size_t first = chunk * kPointsAtOnce, last = std::min(points.size(), first + kPointsAtOnce);
     for (std::size_t i = first; i < last; ++i) radiance[i] = tracer.radiance(points[i], i);
     progress.add((last - first) * tracer.rays_per_point());
   });

@@ -11,20 +11,19 @@
 namespace twinshade {
 namespace {
 
-constexpr int kMostOrder = 6;
 
 std::vector<TripleProduct> integrate(int order) {
   const int n = order * order;
   // The product of three functions has degree 3 (order - 1) at most
   const Quadrature points = sphere_quadrature(-1, 3 * order / 2 + 2);
-  const std::vector<double> y = radiance_basis(points.directions, kMostOrder * kMostOrder);
+  const std::vector<double> y = radiance_basis(points.directions, kHighestOrder * kHighestOrder);
   std::vector<TripleProduct> products;
   for (int i = 0; i < n; ++i)
     for (int j = i; j < n; ++j)
       for (int k = j; k < n; ++k) {
         double sum = 0;
         for (std::size_t p = 0; p < points.weights.size(); ++p) {
-          const double* at = y.data() + p * kMostOrder * kMostOrder;
+          const double* at = y.data() + p * kHighestOrder * kHighestOrder;
           sum += points.weights[p] * at[i] * at[j] * at[k];
         }
         // The GLSL's constants have nine digits
@@ -37,12 +36,12 @@ std::vector<TripleProduct> integrate(int order) {
 
 const std::vector<TripleProduct>& sh_triple_products(int order) {
   TWINSHADE_CHECK_LE(1, order);
-  TWINSHADE_CHECK_LE(order, kMostOrder);
+  TWINSHADE_CHECK_LE(order, kHighestOrder);
   // Made once each; the indices of a lower order are a part of a higher one's
-  static const std::array<std::vector<TripleProduct>, kMostOrder> all = [] {
-    std::array<std::vector<TripleProduct>, kMostOrder> made;
-    const std::vector<TripleProduct> most = integrate(kMostOrder);
-    for (int o = 1; o <= kMostOrder; ++o)
+  static const std::array<std::vector<TripleProduct>, kHighestOrder> all = [] {
+    std::array<std::vector<TripleProduct>, kHighestOrder> made;
+    const std::vector<TripleProduct> most = integrate(kHighestOrder);
+    for (int o = 1; o <= kHighestOrder; ++o)
       for (const TripleProduct& product : most)
         if (product.k < o * o) made[std::size_t(o - 1)].push_back(product);
     return made;

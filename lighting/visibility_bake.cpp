@@ -21,6 +21,7 @@
 #include "lighting/progress.h"
 #include "lighting/radiance_basis.h"
 #include "lighting/random.h"
+#include "lighting/random_domains.h"
 #include "lighting/ray_scene.h"
 #include "lighting/receivers.h"
 #include "lighting/sphere_sets.h"
@@ -30,14 +31,8 @@ namespace {
 
 // Raise when the same inputs give another bake.
 constexpr int kBakeVersion = 2;
-constexpr std::size_t kChunk = 64;  // receivers handed to a thread at a time
-constexpr int kGutter = 8;          // texels
-// A receiver that sees out in no more than this part of its rays may be inside something; it is, if more than this part
-// of a few closest hits are back faces.
-constexpr double kInsideShare = 0.5;
+// A receiver that sees out in no more than kInsideShare of its rays may be inside something; so many closest hits decide.
 constexpr std::uint32_t kInsideRays = 64;
-
-enum RandomDomain : std::uint64_t { kChooseInside = 35 };
 
 // Square metres that each receiver stands for: a texel by its triangle's scale, a vertex by a third of its triangles.
 void measure_areas(const Scene& scene, const Receivers& receivers, std::vector<float>& area) {
@@ -90,12 +85,12 @@ class Baker {
 
   VisibilityBake run() {
     const auto start = std::chrono::steady_clock::now();
-    const std::size_t count = receivers_.list.size(), chunks = (count + kChunk - 1) / kChunk;
+    const std::size_t count = receivers_.list.size(), chunks = (count + kReceiversAtOnce - 1) / kReceiversAtOnce;
     std::atomic<std::uint64_t> traced{0};
     {
       Progress progress("bake: visibility", "rays", count * options_.rays, options_.show_progress);
       parallel_for(chunks, [&](std::size_t chunk, int) {
-        const std::size_t first = chunk * kChunk, last = std::min(count, first + kChunk);
+        const std::size_t first = chunk * kReceiversAtOnce, last = std::min(count, first + kReceiversAtOnce);
         std::uint64_t rays = 0;
         for (std::size_t i = first; i < last; ++i) rays += look_around(receivers_.list[i]);
         traced += rays;
@@ -158,7 +153,7 @@ class Baker {
     const std::uint32_t step = std::max(1u, options_.rays / kInsideRays);
     std::uint32_t tried = 0, back = 0;
     for (std::uint32_t ray = 0; ray < options_.rays; ++ray) {
-      if (random_bits(options_.seed, kChooseInside, ray) % step != 0) continue;
+      if (random_bits(options_.seed, kInsideRay, ray) % step != 0) continue;
       const Site& site = receivers_.site_of(receiver, ray);
       if (!(glm::dot(directions[ray], site.geometric_normal) > 0)) continue;
       ++tried;

@@ -16,7 +16,6 @@
 namespace twinshade {
 namespace {
 
-constexpr int kMostOrder = 6;
 constexpr double kMostTableBytes = 0x1p31;
 constexpr const char* kPackingNote = "visibility_packing";
 constexpr std::size_t kAluCosine = 9;  // coefficients that visibility_pca_alu.glsl convolves
@@ -104,7 +103,7 @@ class Adder {
   void add_tables(const TechniqueInfo& technique, const SphereMapInfo& map) {
     const std::string name = light_tables_name(technique, map);
     if (bundle_.find_texture(name)) return;
-    int order = kMostOrder;
+    int order = kHighestOrder;
     std::vector<double> products;
     if (technique.tables == "pca") {
       order = options_.order;
@@ -158,9 +157,9 @@ class Adder {
 void add_visibility(Bundle& bundle, const Scene& scene, std::span<const VisibilityBake> bakes,
                     std::span<const double> radiance, std::span<const LitTechnique> wanted,
                     const VisibilityLighting& options) {
-  if (options.order < 2 || options.order > kMostOrder)
-    throw UserError(fmt::format("visibility order {}: must be from 2 to {}", options.order, kMostOrder));
-  TWINSHADE_CHECK_EQ(radiance.size(), square(kMostOrder) * 3);
+  if (options.order < 2 || options.order > kHighestOrder)
+    throw UserError(fmt::format("visibility order {}: must be from 2 to {}", options.order, kHighestOrder));
+  TWINSHADE_CHECK_EQ(radiance.size(), square(kHighestOrder) * 3);
   if (!options.metric_light.empty()) TWINSHADE_CHECK_EQ(options.metric_light.size(), radiance.size());
   if (bakes.empty()) return;
   add_attribute(bundle, "v_normal", scene.normals);

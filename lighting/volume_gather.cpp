@@ -13,24 +13,15 @@
 #include "lighting/progress.h"
 #include "lighting/radiance_basis.h"
 #include "lighting/random.h"
+#include "lighting/random_domains.h"
 
 namespace twinshade {
 namespace {
 
 constexpr int kValues = kVolumeRadianceCount * 3;
 constexpr std::uint32_t kSets = 32;         // of directions, of which each probe takes one
-constexpr std::size_t kChunk = 4;           // probes handed to a thread at a time
-constexpr double kInsideShare = 0.5;        // of rays that meet back faces
+constexpr std::size_t kProbesAtOnce = 4;           // probes handed to a thread at a time
 constexpr std::uint32_t kSurfaceMap = 128;  // texels each way of the lightmap that reflected light is taken from
-
-enum RandomDomain : std::uint64_t {
-  kScrambleSet = 32,
-  kJitterRay,
-  kChooseSet,
-  kChooseVertex,
-  kChooseBright,
-  kPlaceBright
-};
 
 // Sets of one direction in each of `rays` bands of equal solid angle, as DirectionSets, over the whole sphere.
 struct SphereSets {
@@ -39,9 +30,9 @@ struct SphereSets {
 
   SphereSets(std::uint32_t rays, std::uint64_t seed) {
     for (std::uint32_t set = 0; set < kSets; ++set) {
-      const std::uint32_t scramble = std::uint32_t(random_bits(seed, kScrambleSet, set));
+      const std::uint32_t scramble = std::uint32_t(random_bits(seed, kProbeScramble, set));
       for (std::uint32_t ray = 0; ray < rays; ++ray) {
-        const double z = 1 - 2 * (ray + unit_real(random_bits(seed, kJitterRay, set, ray))) / rays;
+        const double z = 1 - 2 * (ray + unit_real(random_bits(seed, kProbeJitter, set, ray))) / rays;
         const double angle = 2 * portable::kPi * (scrambled_radical_inverse(ray, scramble) * 0x1p-32);
         const double radius = std::sqrt(std::max(0.0, 1 - z * z));
         directions.push_back({radius * portable::cos(angle), radius * portable::sin(angle), z});
@@ -72,8 +63,8 @@ class VolumeGatherer {
     out_.sh.assign(count * kValues, 0.0f);
     std::vector<std::uint8_t> known(count, 0);
     Progress progress("bake: volume", "rays", count * (options_.probe_rays + bright_samples_), options_.show_progress);
-    parallel_for((count + kChunk - 1) / kChunk, [&](std::size_t chunk, int) {
-      const std::size_t first = chunk * kChunk, last = std::min(count, first + kChunk);
+    parallel_for((count + kProbesAtOnce - 1) / kProbesAtOnce, [&](std::size_t chunk, int) {
+      const std::size_t first = chunk * kProbesAtOnce, last = std::min(count, first + kProbesAtOnce);
       for (std::size_t probe = first; probe < last; ++probe) known[probe] = gather(probe);
       progress.add((last - first) * (options_.probe_rays + bright_samples_));
     });
@@ -87,7 +78,7 @@ class VolumeGatherer {
   bool gather(std::size_t probe) {
     const glm::vec3 position = grid_.position(probe);
     const std::uint32_t rays = options_.probe_rays;
-    const std::size_t set = random_bits(options_.seed, kChooseSet, probe) % kSets * rays;
+    const std::size_t set = random_bits(options_.seed, kProbeSet, probe) % kSets * rays;
 
     // Radiance of each ray, and its mean
     std::vector<glm::dvec3> radiance(rays);
@@ -102,7 +93,7 @@ class VolumeGatherer {
         ++met_back;
       else if (options_.bounce)
         radiance[ray] = surfaces_.reflected(scene_, hit.triangle, hit.b1, hit.b2,
-                                            unit_real(random_bits(options_.seed, kChooseVertex, probe, ray)));
+                                            unit_real(random_bits(options_.seed, kProbeVertex, probe, ray)));
       mean += radiance[ray];
     }
     mean /= double(rays);
@@ -126,9 +117,9 @@ class VolumeGatherer {
 
   void add_bright(std::size_t probe, const glm::vec3& position, double* values) const {
     std::vector<glm::dvec3> directions, radiance;
-    const double offset = unit_real(random_bits(options_.seed, kChooseBright, probe));
+    const double offset = unit_real(random_bits(options_.seed, kProbeBright, probe));
     for (std::uint32_t s = 0; s < bright_samples_; ++s) {
-      const std::uint64_t bits = random_bits(options_.seed, kPlaceBright, probe, s);
+      const std::uint64_t bits = random_bits(options_.seed, kProbePlace, probe, s);
       const EnvironmentSampler::Sample sample = light_.bright(
           (s + offset) / bright_samples_, double(bits >> 32) * 0x1p-32, double(bits & 0xffffffffu) * 0x1p-32);
       if (rays_.occluded(position, glm::vec3(sample.direction))) continue;

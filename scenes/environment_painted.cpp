@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "base/portable_math.h"
+#include "scenes/blend.h"
 
 namespace twinshade {
 namespace {
@@ -12,13 +13,6 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 using portable::kPi;
-
-double smooth_step(double low, double high, double x) {
-  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
-
-dvec3 mix(const dvec3& a, const dvec3& b, double t) { return a * (1 - t) + b * t; }
 
 // Each pixel is the mean of samples x samples directions spread evenly over it in longitude and latitude.
 Environment paint(const char* name, std::uint32_t width, std::uint32_t height, int samples,

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/portable_math.h"
+#include "scenes/blend.h"
 
 namespace twinshade {
 namespace {
@@ -12,11 +13,6 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 using portable::kPi;
-
-double smooth_step(double low, double high, double x) {
-  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
 
 // A Catmull-Rom curve through evenly spaced values (E. Catmull and R. Rom, A class of local interpolating splines,
 // 1974).

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/portable_math.h"
+#include "scenes/blend.h"
 #include "scenes/noise.h"
 
 namespace twinshade {
@@ -12,14 +13,6 @@ namespace {
 
 using glm::dvec2;
 using glm::dvec3;
-
-double mix(double a, double b, double t) { return a * (1 - t) + b * t; }
-dvec3 mix(const dvec3& a, const dvec3& b, double t) { return a * (1 - t) + b * t; }
-
-double smooth_step(double low, double high, double x) {
-  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
 
 double fraction(double x) { return x - std::floor(x); }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/portable_math.h"
+#include "scenes/blend.h"
 
 namespace twinshade {
 namespace {
@@ -13,8 +14,6 @@ using glm::dvec2;
 using glm::dvec3;
 
 constexpr double kDegree = portable::kPi / 180;
-
-double mix(double a, double b, double t) { return a * (1 - t) + b * t; }
 
 // Directions of growth by central differences; poles are approached from inside, where both directions exist.
 constexpr double kStep = 0x1p-12;

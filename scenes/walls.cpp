@@ -3,14 +3,13 @@
 #include <array>
 
 #include "base/portable_math.h"
+#include "scenes/blend.h"
 
 namespace twinshade {
 namespace {
 
 using glm::dvec2;
 using glm::dvec3;
-
-double mix(double a, double b, double t) { return a * (1 - t) + b * t; }
 
 // How far parts that meet at an angle run into each other, so that no background shows through the joint.
 constexpr double kOverlap = 0.002;

@@ -2,6 +2,7 @@
 // expressions too: they are where values go.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -49,5 +50,17 @@ struct Expression {
   std::vector<bool> written;    // call: arguments that are out or inout
   std::optional<std::size_t> const_token;  // declaration: its `const`
 };
+
+// Whether `is` holds for the expression or some part of it.
+inline bool any_of_tree(const Expression& e, bool (*is)(const Expression&)) {
+  return is(e) || std::any_of(e.operands.begin(), e.operands.end(),
+                              [is](const ExpressionPtr& operand) { return any_of_tree(*operand, is); });
+}
+
+// Can be written twice: evaluating it once more changes nothing.
+inline bool is_repeatable(const Expression& e) {
+  using Kind = Expression::Kind;
+  return !any_of_tree(e, [](const Expression& node) { return node.kind == Kind::assign || node.kind == Kind::call; });
+}
 
 }  // namespace twinshade::lint_detail

@@ -8,12 +8,6 @@ namespace {
 
 using Base = GlslType::Base;
 
-bool starts_with(std::string_view text, std::string_view prefix) { return text.substr(0, prefix.size()) == prefix; }
-
-bool one_of(std::string_view name, std::initializer_list<std::string_view> names) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 GlslType vector_type(Base base, int rows) {
   GlslType type = scalar_type(base);
   type.rows = rows;
@@ -39,7 +33,7 @@ int size_components(std::string_view sampler) {
 GlslType texel_type(const GlslType& sampler) {
   if (sampler.name.find("Shadow") != std::string::npos) return scalar_type(Base::float32);
   const char first = sampler.name.empty() ? 's' : sampler.name[0];
-  return vector_type(first == 'i' && !starts_with(sampler.name, "image") ? Base::int32
+  return vector_type(first == 'i' && !sampler.name.starts_with("image") ? Base::int32
                      : first == 'u'                                      ? Base::uint32
                                                                          : Base::float32,
                      4);
@@ -74,10 +68,10 @@ GlslType keyword_type(std::string_view keyword) {
                                                                                  {"bvec", Base::boolean},
                                                                                  {"dvec", Base::float64}}};
   for (const auto& [prefix, base] : kVectors)
-    if (keyword.size() == prefix.size() + 1 && starts_with(keyword, prefix) && component_count(keyword.back()) != 0)
+    if (keyword.size() == prefix.size() + 1 && keyword.starts_with(prefix) && component_count(keyword.back()) != 0)
       return vector_type(base, component_count(keyword.back()));
   for (const auto& [prefix, base] : {std::pair{std::string_view("mat"), Base::float32}, {"dmat", Base::float64}}) {
-    if (!starts_with(keyword, prefix)) continue;
+    if (!keyword.starts_with(prefix)) continue;
     const std::string_view shape = keyword.substr(prefix.size());
     const bool square = shape.size() == 1, general = shape.size() == 3 && shape[1] == 'x';
     if ((!square && !general) || component_count(shape[0]) == 0 || component_count(shape.back()) == 0) continue;
@@ -87,10 +81,10 @@ GlslType keyword_type(std::string_view keyword) {
   }
   const std::size_t letter = keyword.find_first_of("si");
   const std::string_view opaque =
-      one_of(keyword.substr(0, 1), {"i", "u"}) && letter != std::string_view::npos && !starts_with(keyword, "image")
+      one_of(keyword.substr(0, 1), {"i", "u"}) && letter != std::string_view::npos && !keyword.starts_with("image")
           ? keyword.substr(1)
           : keyword;
-  if (starts_with(opaque, "sampler") || starts_with(opaque, "image") || keyword == "atomic_uint") {
+  if (opaque.starts_with("sampler") || opaque.starts_with("image") || keyword == "atomic_uint") {
     GlslType type = scalar_type(Base::opaque);
     type.name = keyword;
     return type;
@@ -132,7 +126,7 @@ GlslType builtin_type(std::string_view f, const std::vector<GlslType>& arguments
   if (f == "textureSize" || f == "imageSize") return vector_type(Base::int32, size_components(first.name));
   if (f == "textureQueryLevels" || f == "textureSamples" || f == "imageSamples") return scalar_type(Base::int32);
   if (f == "textureQueryLod") return vector_type(Base::float32, 2);
-  if (f == "texelFetch" || f == "texelFetchOffset" || starts_with(f, "texture") || f == "imageLoad")
+  if (f == "texelFetch" || f == "texelFetchOffset" || f.starts_with("texture") || f == "imageLoad")
     return texel_type(first);
   if (f == "floatBitsToInt") return with_base(first, Base::int32);
   if (f == "floatBitsToUint") return with_base(first, Base::uint32);
@@ -148,12 +142,12 @@ GlslType builtin_type(std::string_view f, const std::vector<GlslType>& arguments
     return scalar_type(Base::nothing);
   if (one_of(f, {"not", "bitfieldExtract", "bitfieldInsert", "bitfieldReverse", "uaddCarry", "usubBorrow"}))
     return first;
-  if (starts_with(f, "atomic") || starts_with(f, "imageAtomic"))
+  if (f.starts_with("atomic") || f.starts_with("imageAtomic"))
     return arguments.empty() ? GlslType{} : arguments.back();
-  if (starts_with(f, "pack")) return scalar_type(f == "packDouble2x32" ? Base::float64 : Base::uint32);
+  if (f.starts_with("pack")) return scalar_type(f == "packDouble2x32" ? Base::float64 : Base::uint32);
   if (f == "unpackDouble2x32") return vector_type(Base::uint32, 2);
-  if (starts_with(f, "unpack")) return vector_type(Base::float32, f.find("4x8") != std::string_view::npos ? 4 : 2);
-  if (starts_with(f, "noise")) return vector_type(Base::float32, f.size() == 6 ? std::max(f[5] - '0', 1) : 1);
+  if (f.starts_with("unpack")) return vector_type(Base::float32, f.find("4x8") != std::string_view::npos ? 4 : 2);
+  if (f.starts_with("noise")) return vector_type(Base::float32, f.size() == 6 ? std::max(f[5] - '0', 1) : 1);
   if (f == "transpose") {
     GlslType type = first;
     std::swap(type.columns, type.rows);
@@ -224,7 +218,7 @@ GlslType builtin_type(std::string_view f, const std::vector<GlslType>& arguments
                                                                  "interpolateAtSample",
                                                                  "interpolateAtOffset"};
   if (std::find(kSameType.begin(), kSameType.end(), f) == kSameType.end()) return {};
-  GlslType type = one_of(f, {"ldexp", "frexp"}) || starts_with(f, "interpolateAt") ? first : widest(arguments);
+  GlslType type = one_of(f, {"ldexp", "frexp"}) || f.starts_with("interpolateAt") ? first : widest(arguments);
   const bool integers = one_of(f, {"abs", "min", "max", "clamp", "sign", "mix"});
   if (!integers && type.base != Base::float64) type.base = Base::float32;  // sqrt(2) is sqrt(2.0)
   if (integers && arguments.size() > 1 && f != "mix")

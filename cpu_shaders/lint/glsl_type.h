@@ -1,6 +1,8 @@
 // As much of GLSL's types as the rules need: what kind of number, how many columns and rows.
 #pragma once
 
+#include <algorithm>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +22,10 @@ struct GlslType {
   bool is_vector() const { return columns == 1 && rows > 1 && array_dimensions == 0; }
   bool operator==(const GlslType&) const = default;
 };
+
+inline bool one_of(std::string_view name, std::initializer_list<std::string_view> names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 GlslType scalar_type(GlslType::Base base);
 // From a keyword ("vec3", "mat2x4", "isampler2D"); Base::unknown where it is none.

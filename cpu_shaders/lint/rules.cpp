@@ -20,12 +20,6 @@ struct Place {
   bool in_arm_arithmetic = false;          // within arithmetic that is within an arm
 };
 
-bool one_of(std::string_view name, std::initializer_list<std::string_view> names) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-bool starts_with(std::string_view text, std::string_view prefix) { return text.substr(0, prefix.size()) == prefix; }
-
 bool is_operator(const Expression& e) { return e.kind == Kind::binary || e.kind == Kind::assign; }
 
 bool is_comparison(const Expression& e) {
@@ -46,8 +40,8 @@ bool is_texture_query(std::string_view f) {
 }
 
 bool is_filter(std::string_view f) {
-  return (starts_with(f, "texture") && !is_texture_query(f)) || starts_with(f, "interpolateAt") ||
-         starts_with(f, "shadow");
+  return (f.starts_with("texture") && !is_texture_query(f)) || f.starts_with("interpolateAt") ||
+         f.starts_with("shadow");
 }
 
 bool is_transcendental(std::string_view f) {
@@ -61,8 +55,8 @@ bool has_exact_version(std::string_view f) {
 
 // Moves, selects or rounds in one way only, or works on integers.
 bool is_exact_builtin(std::string_view f) {
-  return is_texture_query(f) || starts_with(f, "atomic") || starts_with(f, "image") || starts_with(f, "bit") ||
-         starts_with(f, "dFdx") || starts_with(f, "dFdy") || starts_with(f, "memoryBarrier") ||
+  return is_texture_query(f) || f.starts_with("atomic") || f.starts_with("image") || f.starts_with("bit") ||
+         f.starts_with("dFdx") || f.starts_with("dFdy") || f.starts_with("memoryBarrier") ||
          one_of(f, {"abs",
                     "floor",
                     "ceil",

@@ -14,12 +14,12 @@
 #include "cpu_shaders/load/load.h"
 #include "cpu_shaders/load/runtime_files.h"
 #include "cpu_shaders/load/source_index.h"
+#include "cpu_shaders/machine.h"
 
 namespace twinshade {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr std::array<const char*, 3> kIsaNames{"baseline", "avx2", "avx512"};
 constexpr std::array<const char*, 3> kIsaFlags{TWINSHADE_FLAGS_BASELINE, TWINSHADE_FLAGS_AVX2, TWINSHADE_FLAGS_AVX512};
 
 std::vector<std::string> flags_of(const CompileOptions& options) {

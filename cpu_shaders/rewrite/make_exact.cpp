@@ -38,12 +38,6 @@ bool is_integer_zero(const Expression& e) {
   return e.kind == Kind::literal && e.type.is_integer() && e.integer && *e.integer == 0;
 }
 
-// Can be written twice: evaluating it changes nothing.
-bool is_repeatable(const Expression& e) {
-  if (e.kind == Kind::assign || e.kind == Kind::call) return false;
-  return std::all_of(e.operands.begin(), e.operands.end(), [](const ExpressionPtr& o) { return is_repeatable(*o); });
-}
-
 // Nine significant digits of the float that is meant.
 std::string literal_text(float value) {
   std::string text = fmt::format("{:.9g}", value);

@@ -56,22 +56,12 @@ std::string probe_functions() {
   return text;
 }
 
-bool any_of_tree(const Expression& e, bool (*is)(const Expression&)) {
-  return is(e) || std::any_of(e.operands.begin(), e.operands.end(),
-                              [is](const ExpressionPtr& operand) { return any_of_tree(*operand, is); });
-}
-
 // Integers alone cannot differ.
 bool touches_floats(const Expression& e) {
   return any_of_tree(e, [](const Expression& node) {
     return node.type.is_floating() || node.type.base == Base::unknown || node.type.base == Base::structure ||
            node.kind == Kind::call;
   });
-}
-
-// May be evaluated again behind its statement.
-bool is_repeatable(const Expression& e) {
-  return !any_of_tree(e, [](const Expression& node) { return node.kind == Kind::assign || node.kind == Kind::call; });
 }
 
 class Probe : public Listener {

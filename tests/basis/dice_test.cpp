@@ -40,8 +40,6 @@ glm::dvec3 one_sided_slope(const char* basis, const std::vector<glm::dvec3>& coe
   return (-26.0 * f[0] + 57.0 * f[1] - 42.0 * f[2] + 11.0 * f[3]) / (6 * kStep);
 }
 
-double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
 // The largest jump of the derivative across the 30 edges, at points between their ends.
 double worst_kink(const char* basis, const std::vector<glm::dvec3>& coefficients) {
   double worst = 0;

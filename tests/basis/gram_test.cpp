@@ -15,7 +15,7 @@ using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowM
 
 // Integrals of weight(direction) a_i b_j.
 template <class Weight>
-Matrix products(const char* a, const char* b, const Points& points, Weight weight) {
+Matrix product_matrix(const char* a, const char* b, const Points& points, Weight weight) {
   const std::vector<double> va = values(a, points.directions), vb = values(b, points.directions);
   const Eigen::Index rows = Eigen::Index(points.weights.size());
   const Eigen::Map<const Matrix> fa(va.data(), rows, Eigen::Index(va.size()) / rows);
@@ -25,13 +25,13 @@ Matrix products(const char* a, const char* b, const Points& points, Weight weigh
   return fa.transpose() * w.asDiagonal() * fb;
 }
 
-Matrix products(const char* a, const char* b, const Points& points) {
-  return products(a, b, points, [](const glm::dvec3&) { return 1.0; });
+Matrix product_matrix(const char* a, const char* b, const Points& points) {
+  return product_matrix(a, b, points, [](const glm::dvec3&) { return 1.0; });
 }
 
 void check_identity(const char* basis, const Points& points) {
   CAPTURE(basis);
-  const Matrix gram = products(basis, basis, points);
+  const Matrix gram = product_matrix(basis, basis, points);
   CHECK((gram - Matrix::Identity(gram.rows(), gram.cols())).cwiseAbs().maxCoeff() < 1e-6);
 }
 
@@ -105,12 +105,12 @@ TEST_CASE("Makhotkin's functions are orthogonal for the weight z and span what H
   for (const std::pair<const char*, const char*>& names : {std::pair("makhotkin4", "hsh4"), {"makhotkin9", "hsh9"}}) {
     const char *makhotkin = names.first, *hsh = names.second;
     CAPTURE(makhotkin);
-    const Matrix weighted = products(makhotkin, makhotkin, points, [](const glm::dvec3& n) { return n.z; });
+    const Matrix weighted = product_matrix(makhotkin, makhotkin, points, [](const glm::dvec3& n) { return n.z; });
     for (Eigen::Index i = 0; i < weighted.rows(); ++i)
       for (Eigen::Index j = 0; j < i; ++j)
         CHECK(std::abs(weighted(i, j)) < 1e-6 * std::sqrt(weighted(i, i) * weighted(j, j)));
     // Projecting on HSH, orthonormal, loses nothing of the norm
-    const Matrix gram = products(makhotkin, makhotkin, points), cross = products(makhotkin, hsh, points);
+    const Matrix gram = product_matrix(makhotkin, makhotkin, points), cross = product_matrix(makhotkin, hsh, points);
     const Matrix projected = cross * cross.transpose();
     CHECK((gram - projected).cwiseAbs().maxCoeff() < 1e-6);
     CHECK(condition(gram) < 200);  // they are independent
@@ -133,10 +133,10 @@ TEST_CASE("condition numbers and Frobenius norms of I - B^T G^-1 B are those of 
                       {"ad_spherical", {2.728352e-4, .001490093, .02772364, .1687397}, 203.8}};
   const Points points = icosahedral(6, 4);
   // The harmonics' constants are floats: their lengths are off by more than the last digits of a small norm.
-  const Eigen::LLT<Matrix> lengths(products("sh5", "sh5", points));
+  const Eigen::LLT<Matrix> lengths(product_matrix("sh5", "sh5", points));
   for (const Row& row : rows) {
     CAPTURE(row.basis);
-    const Matrix gram = products(row.basis, row.basis, points), moments = products(row.basis, "sh5", points);
+    const Matrix gram = product_matrix(row.basis, row.basis, points), moments = product_matrix(row.basis, "sh5", points);
     const Matrix unit = lengths.matrixL().solve(moments.transpose());
     const Matrix kept = unit * gram.llt().solve(unit.transpose());
     for (int order = 2; order <= 5; ++order) {

@@ -26,8 +26,6 @@ std::vector<glm::dvec3> first(const std::vector<glm::dvec3>& all, int count) {
   return {all.begin(), all.begin() + count};
 }
 
-double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
 const glm::dvec3 kLight = glm::normalize(glm::dvec3(0.5, -0.3, 0.8));
 const glm::dvec3 kColour(1, 0.5, 0.25);
 

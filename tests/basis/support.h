@@ -2,7 +2,9 @@
 // independently of shaders/basis/.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <string>
@@ -77,5 +79,8 @@ std::string hex(const glm::dvec3& v);
 
 // All bases that are linear, or all that are not.
 std::vector<const TechniqueInfo*> bases(bool linear);
+
+// The component that is largest in absolute value.
+inline double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 }  // namespace twinshade::test

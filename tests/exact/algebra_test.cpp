@@ -9,7 +9,7 @@
 namespace twinshade::test {
 namespace {
 
-constexpr const char* kShader = R"(
+constexpr const char* kAlgebra = R"(
 #include "exact/cross.glsl"
 #include "exact/fract.glsl"
 #include "exact/matrix.glsl"
@@ -65,7 +65,7 @@ const Data& data() {
     Data d;
     Random random(5);
     for (std::size_t i = 0; i < 24 * kRows; ++i) d.inputs.push_back(random.uniform(-2, 2));
-    d.outputs = RowShader("algebra", kShader, Number::scalar).run(d.inputs, kRows);
+    d.outputs = RowShader("algebra", kAlgebra, Number::scalar).run(d.inputs, kRows);
     return d;
   }();
   return made;

@@ -9,7 +9,7 @@
 namespace twinshade::test {
 namespace {
 
-constexpr const char* kShader = R"(
+constexpr const char* kBilinear = R"(
 #include "exact/bilinear.glsl"
 
 in vec2 uv;
@@ -35,8 +35,8 @@ void main() {
 constexpr int kWidth = 5, kHeight = 3;
 constexpr int kTexels = kWidth * kHeight * 4;
 
-const RowShader& shader() {
-  static const RowShader made("bilinear", kShader, Number::scalar);
+const RowShader& bilinear() {
+  static const RowShader made("bilinear", kBilinear, Number::scalar);
   return made;
 }
 
@@ -60,9 +60,9 @@ struct Filtered {
 
 Filtered filter(const std::vector<float>& u, const std::vector<float>& v) {
   // slots in the module's order
-  std::vector<TextureView> views(shader().module().texture_count);
-  for (std::uint32_t i = 0; i < shader().module().resource_count; ++i) {
-    const ShaderResource& resource = shader().module().resources[i];
+  std::vector<TextureView> views(bilinear().module().texture_count);
+  for (std::uint32_t i = 0; i < bilinear().module().resource_count; ++i) {
+    const ShaderResource& resource = bilinear().module().resources[i];
     const bool array = resource.kind == ResourceKind::sampler_2d_array;
     views[resource.slot] = {texels().data(),
                             kWidth,
@@ -76,7 +76,7 @@ Filtered filter(const std::vector<float>& u, const std::vector<float>& v) {
   }
   std::vector<float> inputs = u;
   inputs.insert(inputs.end(), v.begin(), v.end());
-  return {shader().run(inputs, u.size(), views), u.size()};
+  return {bilinear().run(inputs, u.size(), views), u.size()};
 }
 
 float texel(int layer, int x, int y, int component) {

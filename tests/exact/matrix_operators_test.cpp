@@ -8,7 +8,7 @@
 namespace twinshade::test {
 namespace {
 
-constexpr const char* kShader = R"(
+constexpr const char* kMatrixOperators = R"(
 #include "exact/matrix_operators.glsl"
 #include "exact/rounding.glsl"
 #include "exact/smoothstep.glsl"
@@ -65,7 +65,7 @@ TEST_CASE("inverses undo, determinants are Laplace's, products associate, roundi
   Random random(11);
   std::vector<float> inputs;
   for (std::size_t i = 0; i < 16 * kRows; ++i) inputs.push_back(random.uniform(-2, 2));
-  const std::vector<float> out = RowShader("matrix_operators", kShader, Number::scalar).run(inputs, kRows);
+  const std::vector<float> out = RowShader("matrix_operators", kMatrixOperators, Number::scalar).run(inputs, kRows);
   const auto at = [&](std::size_t component, std::size_t row) { return out[component * kRows + row]; };
   for (std::size_t row = 0; row < kRows; ++row) {
     CAPTURE(row);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kInfinity = INFINITY, kNan = NAN, kDenormal = 0x1p-130f;
 
-const RowShader& shader() {
+const RowShader& all_functions() {
   static const RowShader made("transcendental", kTranscendentalShader);
   return made;
 }
@@ -106,7 +106,7 @@ TEST_CASE("special values are as documented") {
       {Function::asin, kNan, 0, kNan},
   };
   for (const Case& c : cases) {
-    const float value = evaluate(shader(), c.function, {c.x}, {c.y})[0];
+    const float value = evaluate(all_functions(), c.function, {c.x}, {c.y})[0];
     CAPTURE(static_cast<int>(c.function));
     CAPTURE(hex(c.x));
     CAPTURE(hex(c.y));
@@ -125,7 +125,7 @@ TEST_CASE("symmetries hold to the last bit") {
     minus_x.push_back(-x.back());
   }
   const auto check_all = [&](Function function, bool odd) {
-    const std::vector<float> a = evaluate(shader(), function, x, y), b = evaluate(shader(), function, minus_x, y);
+    const std::vector<float> a = evaluate(all_functions(), function, x, y), b = evaluate(all_functions(), function, minus_x, y);
     int broken = 0;
     for (std::size_t i = 0; i < x.size(); ++i) broken += !(a[i] == (odd ? -b[i] : b[i])) && !std::isnan(a[i]);
     CAPTURE(static_cast<int>(function));

@@ -8,7 +8,7 @@
 namespace twinshade::test {
 namespace {
 
-constexpr const char* kShader = R"(
+constexpr const char* kWrittenOut = R"(
 #include "exact/written_out.glsl"
 in vec2 operands;
 layout(location = 0) out vec2 result;
@@ -20,7 +20,7 @@ void main() {
 }
 )";
 
-float flushed(float x) { return std::fpclassify(x) == FP_SUBNORMAL ? std::copysign(0.0F, x) : x; }
+float without_denormals(float x) { return std::fpclassify(x) == FP_SUBNORMAL ? std::copysign(0.0F, x) : x; }
 
 // Correctly rounded by way of double, which has more than twice the digits; tiny after rounding is 0.
 float rounded(double exact) {
@@ -37,7 +37,7 @@ void check(const RowShader& shader, const std::vector<std::uint32_t>& x, const s
   for (std::size_t i = 0; i < n; ++i) inputs[i] = float_of(x[i]), inputs[n + i] = float_of(y[i]);
   const std::vector<float> results = shader.run(inputs, n);
   for (std::size_t i = 0; i < n; ++i) {
-    const float a = flushed(inputs[i]), b = flushed(inputs[n + i]);
+    const float a = without_denormals(inputs[i]), b = without_denormals(inputs[n + i]);
     const float quotient = rounded(static_cast<double>(a) / b), root = std::sqrt(a);
     REQUIRE_MESSAGE(same(results[i], quotient), hex(a), " / ", hex(b), ": ", hex(results[i]), ", not ", hex(quotient));
     REQUIRE_MESSAGE(same(results[n + i], root), "sqrt ", hex(a), ": ", hex(results[n + i]), ", not ", hex(root));
@@ -47,7 +47,7 @@ void check(const RowShader& shader, const std::vector<std::uint32_t>& x, const s
 }  // namespace
 
 TEST_CASE("division and square root written out in integers round as IEEE 754 says") {
-  const RowShader shader("written_out", kShader);
+  const RowShader shader("written_out", kWrittenOut);
   std::vector<std::uint32_t> x, y;
 
   // Special and extreme values against each other
@@ -82,7 +82,7 @@ TEST_CASE("division and square root written out in integers round as IEEE 754 sa
 }
 
 TEST_CASE("min, max and clamp written out choose the second of two zeros and the number beside NaN") {
-  const RowShader shader("written_out", kShader);
+  const RowShader shader("written_out", kWrittenOut);
   const float nan = std::nanf("");
   const float tiny = 0x1p-130F;  // counts as 0
   const std::vector<float> x{0.0F, -0.0F, nan, 2.0F, 3.0F, -5.0F, tiny, 2.0F, -tiny},

@@ -12,11 +12,11 @@ using namespace twinshade;
 
 namespace {
 
-struct Expected {
+struct ExpectedNorms {
   double norms[4];  // SH2 to SH5
   double condition;
 };
-const std::map<std::string, Expected> kTable = {
+const std::map<std::string, ExpectedNorms> kNorms = {
     {"ambient_cube", {{.1082532, 1.73543, 3.162279, 4.3589}, 2.5}},
     {"ad_linear_planar", {{.003542313, .1844129, 2.00906, 3.606017}, 3.973}},
     {"ad_linear_spherical", {{.001870961, .1544227, 2.006371, 3.605892}, 4.217}},
@@ -47,7 +47,7 @@ TEST_CASE("what each basis misses of spherical harmonics, and the condition of i
     CAPTURE(basis);
     ++seen[basis];
     const double condition = result.rows.number(r, "condition");
-    if (const auto found = kTable.find(basis); found != kTable.end()) {
+    if (const auto found = kNorms.find(basis); found != kNorms.end()) {
       const int order = int(result.rows.number(r, "order"));
       CAPTURE(order);
       CHECK(close(result.rows.number(r, "norm"), found->second.norms[order - 2], 1e-5));
@@ -56,7 +56,7 @@ TEST_CASE("what each basis misses of spherical harmonics, and the condition of i
       CHECK(close(condition, hemisphere->second, 4e-3));  // three digits are given
     }
   }
-  for (const auto& [basis, expected] : kTable)
+  for (const auto& [basis, expected] : kNorms)
     for (const TechniqueInfo& technique : techniques())
       if (technique.name == basis) CHECK(seen[basis] == 4);
 }

@@ -1,6 +1,7 @@
 // Drawing through EGL and OSMesa: what a frame holds, for every kind of input, output and shader version.
 #include <doctest/doctest.h>
 
+#include <bit>
 #include <cstring>
 
 #include "base/error.h"
@@ -31,12 +32,6 @@ DrawOptions in_mode(AttributeMode mode, bool capture = false) {
 Color color_at(const Frame& frame, std::uint32_t x, std::uint32_t y) {
   const auto first = frame.color.begin() + std::ptrdiff_t(y * frame.width + x) * 4;
   return {first, first + 4};
-}
-
-float bits(std::uint32_t value) {
-  float result;
-  std::memcpy(&result, &value, sizeof result);
-  return result;
 }
 
 std::uint32_t bits_of(float value) {
@@ -104,8 +99,8 @@ TEST_CASE("arrays, matrices and integers arrive element by element and column by
     constant(bundle, "c[" + std::to_string(i) + "]", Scalar::f32, {float(i), float(i) + 0.5f});
   for (int i = 0; i < 2; ++i)
     constant(bundle, "m[" + std::to_string(i) + "]", Scalar::f32, {float(10 * i), float(10 * i + 1), 2});
-  constant(bundle, "tags", Scalar::i32, {bits(0xfffffff0u), bits(5)});
-  constant(bundle, "key", Scalar::u32, {bits(0xdeadbeefu)});
+  constant(bundle, "tags", Scalar::i32, {std::bit_cast<float>(0xfffffff0u), std::bit_cast<float>(5)});
+  constant(bundle, "key", Scalar::u32, {std::bit_cast<float>(0xdeadbeefu)});
   const std::string declarations = "in vec2 c[3]; in mat2x3 m; flat in ivec2 tags; flat in uint key; out vec4 color;\n";
   for (const AttributeMode mode : kModes) {
     const Frame frame = egl().draw(

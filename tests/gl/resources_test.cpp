@@ -1,6 +1,7 @@
 // Uniforms, blocks, storage buffers and textures by name, and what is said when one is missing.
 #include <doctest/doctest.h>
 
+#include <bit>
 #include <cstring>
 
 #include "base/error.h"
@@ -27,12 +28,6 @@ std::vector<float> color_of(const Bundle& bundle, const std::string& text, Attri
   return {frame.color.begin(), frame.color.begin() + 4};
 }
 
-float bits(std::uint32_t value) {
-  float result;
-  std::memcpy(&result, &value, sizeof result);
-  return result;
-}
-
 Uniform uniform(const std::string& name, Scalar scalar, std::uint32_t columns, std::uint32_t rows, std::uint32_t length,
                 std::vector<float> values) {
   return {name, scalar, columns, rows, length, std::move(values)};
@@ -56,9 +51,9 @@ TEST_CASE("uniforms of every type arrive by name") {
       uniform("k", Scalar::f32, 1, 2, 3, {1, 2, 3, 4, 5, 6}),
       uniform("m", Scalar::f32, 3, 3, 0, {1, 2, 3, 4, 5, 6, 7, 8, 9}),
       uniform("m23", Scalar::f32, 2, 3, 0, {1, 2, 3, 4, 5, 6}),
-      uniform("i", Scalar::i32, 1, 2, 0, {bits(0xfffffffdu), bits(7)}),
-      uniform("u", Scalar::u32, 1, 1, 0, {bits(0x80000001u)}),
-      uniform("b", Scalar::boolean, 1, 3, 0, {bits(1), bits(0), bits(1)}),
+      uniform("i", Scalar::i32, 1, 2, 0, {std::bit_cast<float>(0xfffffffdu), std::bit_cast<float>(7)}),
+      uniform("u", Scalar::u32, 1, 1, 0, {std::bit_cast<float>(0x80000001u)}),
+      uniform("b", Scalar::boolean, 1, 3, 0, {std::bit_cast<float>(1), std::bit_cast<float>(0), std::bit_cast<float>(1)}),
       uniform("light.color", Scalar::f32, 1, 3, 0, {7, 8, 9}),
       uniform("light.power", Scalar::f32, 1, 1, 0, {10}),
       uniform("lights[0].color", Scalar::f32, 1, 3, 0, {0, 0, 0}),
@@ -94,7 +89,7 @@ TEST_CASE("blocks and storage buffers arrive by block name") {
 
 TEST_CASE("storage buffers start from the bundle's content in every draw") {
   Bundle bundle = test::quad(1, 1);
-  bundle.buffers = {{"Counter", true, bytes_of({bits(41)})}};
+  bundle.buffers = {{"Counter", true, bytes_of({std::bit_cast<float>(41)})}};
   const std::string text =
       "buffer Counter { uint count; };\nout vec4 c;\nvoid main() { c = vec4(float(atomicAdd(count, 1u))); }\n";
   CHECK(color_of(bundle, text)[0] == 41);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -12,7 +13,7 @@
 namespace twinshade {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 TEST_CASE("a constant environment: solid angles add up to the sphere, irradiance is pi L") {
   const Environment environment = uniform_environment(0.5f, 128);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "lighting/direction_sets.h"
 #include "lighting/environment_sampler.h"
@@ -13,7 +14,7 @@
 namespace twinshade {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 BakeOptions options(std::uint32_t size, std::uint32_t rays, bool bounce) {
   BakeOptions o;

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "base/error.h"
@@ -11,7 +12,7 @@
 namespace twinshade {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 TEST_CASE("quadrature integrates polynomials of the hemisphere and the sphere") {
   for (const double z_low : {0.0, -1.0}) {

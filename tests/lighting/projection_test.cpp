@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "base/error.h"
@@ -14,7 +15,7 @@
 namespace twinshade {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 std::vector<double> random_radiance(int trial, int count, int lit) {
   std::vector<double> radiance(std::size_t(count) * 3, 0.0);

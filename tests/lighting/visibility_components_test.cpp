@@ -31,7 +31,7 @@ VisibilityBake random_bake(std::uint32_t cells) {
   return bake;
 }
 
-std::vector<double> some_light() {
+std::vector<double> random_light() {
   std::vector<double> light(36 * 3);
   for (std::size_t i = 0; i < light.size(); ++i) light[i] = (i < 3 ? 2 : 0) + unit_real(random_bits(12, 0, i)) - 0.5;
   return light;
@@ -60,7 +60,7 @@ TEST_CASE("as many components as coefficients lose nothing, whatever they are ch
   for (const PcaMetric metric : kMetrics)
     for (const int order : {2, 3}) {
       const auto n = std::size_t(order * order);
-      VisibilityComponents components(bake, order, metric, some_light());
+      VisibilityComponents components(bake, order, metric, random_light());
       CAPTURE(int(metric));
       CAPTURE(order);
       CHECK(largest_error(bake, components, n, n) < 1e-5);
@@ -78,7 +78,7 @@ TEST_CASE("components chosen by surface err least where surfaces show it, the pa
     double by_surface = 0, all_around = 0;
   };
   const auto errors_of = [&](PcaMetric metric) {
-    VisibilityComponents components(bake, kOrder, metric, some_light());
+    VisibilityComponents components(bake, kOrder, metric, random_light());
     const std::vector<double> rows = components.rows(kCount);
     const std::vector<float> weights = components.weights(bake, kCount);
     Errors sum;
@@ -107,7 +107,7 @@ TEST_CASE("another bake has weights of the same components, wherever its surface
   for (std::size_t cell = 0; cell < some.cells(); ++cell)
     some.normal[cell * 3 + 2] = -std::fabs(some.normal[cell * 3 + 2]);
   for (const PcaMetric metric : kMetrics) {
-    VisibilityComponents components(some, 3, metric, some_light());
+    VisibilityComponents components(some, 3, metric, random_light());
     CAPTURE(int(metric));
     const std::vector<float> own = components.weights(some, 4), whole = components.weights(others, 4);
     REQUIRE(whole.size() == others.cells() * 4);
@@ -123,7 +123,7 @@ TEST_CASE("without any surface that counts components are zero") {
   VisibilityBake bake = random_bake(50);
   std::fill(bake.area.begin(), bake.area.end(), 0.0f);
   for (const PcaMetric metric : kMetrics) {
-    VisibilityComponents components(bake, 3, metric, some_light());
+    VisibilityComponents components(bake, 3, metric, random_light());
     for (const double value : components.rows(4)) CHECK(value == 0);
     for (const float weight : components.weights(bake, 4)) CHECK(weight == 0);
   }

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "base/error.h"
@@ -16,7 +17,7 @@
 namespace twinshade {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 BakeOptions small_volume() {
   BakeOptions options;

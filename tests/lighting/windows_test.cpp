@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "lighting/fit.h"
@@ -14,7 +15,7 @@
 namespace twinshade {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 std::vector<glm::dvec3> dense(bool hemisphere) {
   std::vector<glm::dvec3> directions = sphere_quadrature(hemisphere ? 0 : -1, 60).directions;

@@ -12,9 +12,11 @@
 #include "scenes/scene.h"
 #include "tests/scenes/image_writers.h"
 #include "tests/scenes/model_writers.h"
+#include "tests/scenes/notes.h"
 #include "tests/scenes/temporary_folder.h"
 
 using namespace twinshade;
+using twinshade::test::has_note;
 using glm::dvec3;
 using nlohmann::json;
 
@@ -25,12 +27,6 @@ const std::string kBoomBox = TWINSHADE_SOURCE_DIR "/../shared/models/BoomBox/Boo
 std::string save(const TemporaryFolder& folder, GltfWriter& writer, const std::string& name = "m") {
   folder.write(name + ".bin", writer.binary);
   return folder.write(name + ".gltf", writer.gltf(name + ".bin"));
-}
-
-bool has_note(const Scene& scene, const std::string& part) {
-  for (const std::string& note : scene.notes)
-    if (note.find(part) != std::string::npos) return true;
-  return false;
 }
 
 // A PNG with one colour per texel, row 0 on top.

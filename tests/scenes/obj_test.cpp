@@ -5,9 +5,11 @@
 #include "base/file.h"
 #include "scenes/scene.h"
 #include "tests/scenes/image_writers.h"
+#include "tests/scenes/notes.h"
 #include "tests/scenes/temporary_folder.h"
 
 using namespace twinshade;
+using twinshade::test::has_note;
 using glm::dvec3;
 
 namespace {
@@ -21,12 +23,6 @@ const char* const kCube =
 const char* const kMaterials =
     "newmtl red\nKd 0.8 0.1 0.05\n"
     "newmtl map\nKd 1 1 1\nmap_Kd colour.png\nmap_Bump normal.png\n";
-
-bool has_note(const Scene& scene, const std::string& part) {
-  for (const std::string& note : scene.notes)
-    if (note.find(part) != std::string::npos) return true;
-  return false;
-}
 
 void write_maps(const TemporaryFolder& folder) {
   write_image(folder.name("colour.png"), 2, 2, 3, std::vector<std::uint8_t>{0, 0, 0, 64, 0, 0, 128, 0, 0, 255, 0, 0});

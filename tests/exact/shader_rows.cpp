@@ -9,6 +9,7 @@
 #include <new>
 
 #include "base/error.h"
+#include "cpu_shaders/machine.h"
 #include "cpu_shaders/runtime/denormals.h"
 
 namespace twinshade::test {
@@ -28,7 +29,8 @@ struct Block {  // 64-byte aligned, zeroed
 }  // namespace
 
 RowShader::RowShader(const std::string& name, const std::string& text, Number number)
-    : module_(&load_module(resolve_shader(name, text, name + ".frag"), number)) {
+    // The instruction set is named, else sixteen lanes would mean eight where registers hold no more.
+    : module_(&load_module(resolve_shader(name, text, name + ".frag"), number, machine_isa())) {
   for (std::uint32_t i = 0; i < module_->entry_count; ++i)
     if (module_->entries[i].number == number) shade_ = module_->entries[i].shade;
   TWINSHADE_CHECK_EQ(shade_ != nullptr, true);

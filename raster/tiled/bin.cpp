@@ -44,13 +44,12 @@ class ChunkSetup {
         viewport_(make_viewport(bundle.width, bundle.height)) {}
 
   void run(std::size_t begin, std::size_t end) {
-    chunk_.triangles.clear();
     chunk_.native.clear();
     chunk_.clipped_inputs.clear();
     chunk_.references.clear();
     chunk_.tile_counts.assign(grid_.count(), 0);
     for (std::size_t primitive = begin; primitive < end; ++primitive) add_primitive(std::uint32_t(primitive));
-    TWINSHADE_CHECK_LT(chunk_.triangles.size(), std::size_t{1} << TriangleRef::kIndexBits);
+    TWINSHADE_CHECK_LT(used_, std::size_t{1} << TriangleRef::kIndexBits);
   }
 
  private:
@@ -66,15 +65,18 @@ class ChunkSetup {
 
   void add_primitive(std::uint32_t primitive) {
     const std::uint32_t* index = &bundle_.indices[std::size_t(primitive) * 3];
-    std::uint32_t in_all = ~0u, in_any = 0;  // planes that vertices are outside of
-    for (int i = 0; i < 3; ++i) {
-      in_all &= geometry_.vertices[index[i]].outside;
-      in_any |= geometry_.vertices[index[i]].outside;
-    }
-    if (in_any == 0)
-      add_triangle(primitive, {corner_of_vertex(index[0]), corner_of_vertex(index[1]), corner_of_vertex(index[2])});
-    else if (!(in_any & kNotFinite) && in_all == 0)
+    const WindowVertex corners[3] = {geometry_.vertices[index[0]], geometry_.vertices[index[1]],
+                                     geometry_.vertices[index[2]]};
+    // Planes that vertices are outside of.
+    const std::uint32_t in_any = corners[0].outside | corners[1].outside | corners[2].outside;
+    const std::uint32_t in_all = corners[0].outside & corners[1].outside & corners[2].outside;
+    if (in_any == 0) {
+      RasterTriangle* triangle = set_up(primitive, corners);
+      if (triangle && native_)
+        add_native(*triangle, {corner_of_vertex(index[0]), corner_of_vertex(index[1]), corner_of_vertex(index[2])});
+    } else if (!(in_any & kNotFinite) && in_all == 0) {
       add_clipped(primitive, index, in_any);
+    }
   }
 
   void add_clipped(std::uint32_t primitive, const std::uint32_t index[3], std::uint32_t outside) {
@@ -143,12 +145,21 @@ class ChunkSetup {
 
   void add_triangle(std::uint32_t primitive, const std::array<Corner, 3>& corners) {
     const WindowVertex window[3] = {corners[0].window, corners[1].window, corners[2].window};
-    RasterTriangle triangle;
-    if (!set_up_triangle(window, grid_, bundle_.cull_back_faces, triangle)) return;
+    const RasterTriangle* triangle = set_up(primitive, window);
+    if (triangle && native_) add_native(*triangle, corners);
+  }
+
+  // Null where it cannot be seen.
+  RasterTriangle* set_up(std::uint32_t primitive, const WindowVertex corners[3]) {
+    if (used_ == chunk_.triangles.size()) chunk_.triangles.resize(2 * used_ + kTrianglesAtOnce);
+    RasterTriangle& triangle = chunk_.triangles[used_];
+    if (!set_up_triangle(corners, grid_, bundle_.cull_back_faces, triangle)) return nullptr;
     triangle.primitive = primitive;
-    add_references(triangle, std::uint32_t(chunk_.triangles.size()));
-    chunk_.triangles.push_back(triangle);
-    if (!native_) return;
+    add_references(triangle, std::uint32_t(used_++));
+    return &triangle;
+  }
+
+  void add_native(const RasterTriangle& triangle, const std::array<Corner, 3>& corners) {
     NativeTriangle native;
     for (std::size_t i = 0; i < 3; ++i) {
       const Corner& from = corners[triangle.front_facing == 0 && i < 2 ? 1 - i : i];
@@ -179,6 +190,7 @@ class ChunkSetup {
   const Geometry& geometry_;
   TriangleChunk& chunk_;
   const Viewport viewport_;
+  std::size_t used_ = 0;  // of the chunk's triangles
 };
 
 }  // namespace

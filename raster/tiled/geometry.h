@@ -21,7 +21,8 @@ struct TriangleChunk {
   struct Reference {
     std::uint32_t tile, triangle;  // index into triangles
   };
-  std::vector<RasterTriangle> triangles;
+  std::vector<RasterTriangle>
+      triangles;                       // the first ones, as many as references name: room is kept from frame to frame
   std::vector<NativeTriangle> native;  // as triangles, or empty with exact attributes
   std::vector<float> clipped_inputs;   // rows of BoundDraw::input_components
   std::vector<Reference> references;

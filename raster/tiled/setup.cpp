@@ -24,8 +24,8 @@ bool set_up_triangle(const WindowVertex v[3], const TileGrid& grid, bool cull_ba
 
   // Pixel centres are multiples of kSubpixel: the first at or after the least coordinate, the last at or before the
   // greatest.
-  const auto [least_x, greatest_x] = std::minmax({x[0], x[1], x[2]});
-  const auto [least_y, greatest_y] = std::minmax({y[0], y[1], y[2]});
+  const std::int64_t least_x = std::min(std::min(x[0], x[1]), x[2]), greatest_x = std::max(std::max(x[0], x[1]), x[2]);
+  const std::int64_t least_y = std::min(std::min(y[0], y[1]), y[2]), greatest_y = std::max(std::max(y[0], y[1]), y[2]);
   const std::int64_t min_x = std::max<std::int64_t>((least_x + kSubpixel - 1) >> 8, 0);
   const std::int64_t min_y = std::max<std::int64_t>((least_y + kSubpixel - 1) >> 8, 0);
   const std::int64_t max_x = std::min<std::int64_t>(greatest_x >> 8, std::int64_t(grid.frame_width) - 1);

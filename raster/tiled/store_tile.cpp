@@ -33,14 +33,20 @@ constexpr std::uint32_t in_superblock(std::uint32_t x, std::uint32_t y) {
   return (y / 4 * 4 + x / 4) * 16 + (y % 4 / 2 * 2 + x % 4 / 2) * 4 + y % 2 * 2 + x % 2;
 }
 
-// Two quads side by side become their lower and upper row of four.
+// The lower and upper row of sixteen pixels, from the quads of four blocks.
 template <class V>
 struct Rows {
-  V low, high;
-  explicit Rows(const typename V::element* quads) {
-    const V left = V::load(quads), right = V::load(quads + 4);
-    low.v = __builtin_shufflevector(left.v, right.v, 0, 1, 4, 5);
-    high.v = __builtin_shufflevector(left.v, right.v, 2, 3, 6, 7);
+  V low[4], high[4];
+  explicit Rows(const typename V::element* blocks) {
+    for (int i = 0; i < 4; ++i) {
+      const V left = V::load(blocks + 16 * i), right = V::load(blocks + 16 * i + 4);
+      low[i].v = __builtin_shufflevector(left.v, right.v, 0, 1, 4, 5);
+      high[i].v = __builtin_shufflevector(left.v, right.v, 2, 3, 6, 7);
+    }
+  }
+  void stream_to(typename V::element* row, std::size_t width) const {
+    for (int i = 0; i < 4; ++i) stream(row + 4 * i, low[i]);
+    for (int i = 0; i < 4; ++i) stream(row + width + 4 * i, high[i]);
   }
 };
 
@@ -69,30 +75,28 @@ void TileWorker::store_tile() {
 void TileWorker::store_superblock(std::uint32_t first, std::uint32_t x, std::uint32_t y) {
   Frame& frame = draw_.frame;
   const std::size_t width = frame.width;
-  for (std::uint32_t row = 0; row < kSuperblock; row += 2)
-    for (std::uint32_t column = 0; column < kSuperblock; column += 4) {
-      const std::size_t pixel = (y + row) * width + x + column;  // the lower left one of 4 x 2
-      const std::size_t from = first + in_superblock(column, row);
-      const float* left = &color_[4 * from];
-      const float* right = left + 16;
-      for (std::size_t up = 0; up < 2; ++up) {
-        float* color = &frame.color[4 * (pixel + up * width)];
-        stream(color, F4::load(left + 8 * up));
-        stream(color + 4, F4::load(left + 8 * up + 4));
-        stream(color + 8, F4::load(right + 8 * up));
-        stream(color + 12, F4::load(right + 8 * up + 4));
+  for (std::uint32_t row = 0; row < kSuperblock; row += 2) {
+    const std::size_t pixel = (y + row) * width + x;
+    const std::size_t from = first + in_superblock(0, row);  // four blocks on, each 16 pixels further
+    // Each line of memory is filled by stores that follow each other: processors combine few lines at a time.
+    for (std::size_t up = 0; up < 2; ++up)
+      for (std::size_t quad = 0; quad < 8; ++quad) {
+        const float* color = &color_[4 * (from + quad / 2 * 16 + quad % 2 * 4 + 2 * up)];
+        float* to = &frame.color[4 * (pixel + up * width + 2 * quad)];
+        stream(to, F4::load(color));
+        stream(to + 4, F4::load(color + 4));
       }
-      const Rows<F4> depth(&tile_.depth[from]);
-      stream(&frame.depth[pixel], depth.low);
-      stream(&frame.depth[pixel + width], depth.high);
-      const Rows<U4> id(&primitive_id_[from]);
-      stream(&frame.primitive_id[pixel], id.low);
-      stream(&frame.primitive_id[pixel + width], id.high);
-      const std::uint32_t bytes[2] = {kCoverageBytes[(id.low != U4(kNoPrimitive)).bits()],
-                                      kCoverageBytes[(id.high != U4(kNoPrimitive)).bits()]};
-      std::memcpy(&frame.coverage[pixel], &bytes[0], 4);
-      std::memcpy(&frame.coverage[pixel + width], &bytes[1], 4);
+    const Rows<F4> depth(&tile_.depth[from]);
+    depth.stream_to(&frame.depth[pixel], width);
+    const Rows<U4> id(&primitive_id_[from]);
+    id.stream_to(&frame.primitive_id[pixel], width);
+    for (std::size_t block = 0; block < 4; ++block) {
+      const std::uint32_t bytes[2] = {kCoverageBytes[(id.low[block] != U4(kNoPrimitive)).bits()],
+                                      kCoverageBytes[(id.high[block] != U4(kNoPrimitive)).bits()]};
+      std::memcpy(&frame.coverage[pixel + 4 * block], &bytes[0], 4);
+      std::memcpy(&frame.coverage[pixel + 4 * block + width], &bytes[1], 4);
     }
+  }
 }
 
 // At the frame's border, and for colours in double.

@@ -58,21 +58,51 @@ concept LaneOrVec = Lane<T> || Vec<T>;
 namespace detail {
 template <class T, int n>
 struct Components;
+// Copied component by component: GCC takes copies of whole structs apart into halves of 16 bytes, which wait for the
+// stores of whole registers that they are read back from.
 template <class T>
 struct Components<T, 1> {
   T x;
+  TWINSHADE_INLINE Components() : x{} {}
+  TWINSHADE_INLINE constexpr explicit Components(const T& x_) : x(x_) {}
+  TWINSHADE_INLINE constexpr Components(const Components& o) : x(o.x) {}
+  TWINSHADE_INLINE constexpr Components& operator=(const Components& o) {
+    x = o.x;
+    return *this;
+  }
 };
 template <class T>
 struct Components<T, 2> {
   T x, y;
+  TWINSHADE_INLINE Components() : x{}, y{} {}
+  TWINSHADE_INLINE constexpr explicit Components(const T& x_, const T& y_) : x(x_), y(y_) {}
+  TWINSHADE_INLINE constexpr Components(const Components& o) : x(o.x), y(o.y) {}
+  TWINSHADE_INLINE constexpr Components& operator=(const Components& o) {
+    x = o.x; y = o.y;
+    return *this;
+  }
 };
 template <class T>
 struct Components<T, 3> {
   T x, y, z;
+  TWINSHADE_INLINE Components() : x{}, y{}, z{} {}
+  TWINSHADE_INLINE constexpr explicit Components(const T& x_, const T& y_, const T& z_) : x(x_), y(y_), z(z_) {}
+  TWINSHADE_INLINE constexpr Components(const Components& o) : x(o.x), y(o.y), z(o.z) {}
+  TWINSHADE_INLINE constexpr Components& operator=(const Components& o) {
+    x = o.x; y = o.y; z = o.z;
+    return *this;
+  }
 };
 template <class T>
 struct Components<T, 4> {
   T x, y, z, w;
+  TWINSHADE_INLINE Components() : x{}, y{}, z{}, w{} {}
+  TWINSHADE_INLINE constexpr explicit Components(const T& x_, const T& y_, const T& z_, const T& w_) : x(x_), y(y_), z(z_), w(w_) {}
+  TWINSHADE_INLINE constexpr Components(const Components& o) : x(o.x), y(o.y), z(o.z), w(o.w) {}
+  TWINSHADE_INLINE constexpr Components& operator=(const Components& o) {
+    x = o.x; y = o.y; z = o.z; w = o.w;
+    return *this;
+  }
 };
 
 // The k-th value of a constructor's argument list, vectors taken apart.

@@ -18,9 +18,9 @@
 namespace twinshade {
 namespace {
 
-constexpr int kFewestCellPoints = 4;                 // of icosahedral_quadrature: 3,840 normals
+constexpr int kFewestCellPoints = 4;                               // of icosahedral_quadrature: 3,840 normals
 constexpr std::uint32_t kPictureWidth = 128, kPictureHeight = 64;  // of pictures
-constexpr std::size_t kMostProducts = 1600000000;    // of pixels and normals: some seconds
+constexpr std::size_t kMostProducts = 1600000000;                  // of pixels and normals: some seconds
 
 std::vector<double> over_pi(std::vector<double> values) {
   for (double& value : values) value /= portable::kPi;

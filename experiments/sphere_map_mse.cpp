@@ -43,7 +43,8 @@ std::vector<glm::dvec3> random_directions(std::uint64_t seed, std::size_t points
                                           std::size_t count) {
   std::vector<glm::dvec3> directions(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const double z = 2 * ((double(first + i) + unit_real(random_bits(seed, kPointHeight, first + i))) / double(points)) - 1;
+    const double z =
+        2 * ((double(first + i) + unit_real(random_bits(seed, kPointHeight, first + i))) / double(points)) - 1;
     const double phi = 2 * portable::kPi * unit_real(random_bits(seed, kPointAzimuth, first + i));
     const double radius = std::sqrt(1 - z * z);
     directions[i] = {radius * portable::cos(phi), radius * portable::sin(phi), z};

@@ -1,4 +1,5 @@
-// What random numbers of a bake are for: the domains given to random_bits(), so that no two uses within a bake share numbers.
+// What random numbers of a bake are for: the domains given to random_bits(), so that no two uses within a bake share
+// numbers.
 #pragma once
 
 #include <cstdint>

@@ -11,7 +11,6 @@
 namespace twinshade {
 namespace {
 
-
 std::vector<TripleProduct> integrate(int order) {
   const int n = order * order;
   // The product of three functions has degree 3 (order - 1) at most

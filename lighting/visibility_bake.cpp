@@ -31,7 +31,8 @@ namespace {
 
 // Raise when the same inputs give another bake.
 constexpr int kBakeVersion = 2;
-// A receiver that sees out in no more than kInsideShare of its rays may be inside something; so many closest hits decide.
+// A receiver that sees out in no more than kInsideShare of its rays may be inside something; so many closest hits
+// decide.
 constexpr std::uint32_t kInsideRays = 64;
 
 // Square metres that each receiver stands for: a texel by its triangle's scale, a vertex by a third of its triangles.

@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kValues = kVolumeRadianceCount * 3;
 constexpr std::uint32_t kSets = 32;         // of directions, of which each probe takes one
-constexpr std::size_t kProbesAtOnce = 4;           // probes handed to a thread at a time
+constexpr std::size_t kProbesAtOnce = 4;    // probes handed to a thread at a time
 constexpr std::uint32_t kSurfaceMap = 128;  // texels each way of the lightmap that reflected light is taken from
 
 // Sets of one direction in each of `rays` bands of equal solid angle, as DirectionSets, over the whole sphere.

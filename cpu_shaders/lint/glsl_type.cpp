@@ -34,8 +34,8 @@ GlslType texel_type(const GlslType& sampler) {
   if (sampler.name.find("Shadow") != std::string::npos) return scalar_type(Base::float32);
   const char first = sampler.name.empty() ? 's' : sampler.name[0];
   return vector_type(first == 'i' && !sampler.name.starts_with("image") ? Base::int32
-                     : first == 'u'                                      ? Base::uint32
-                                                                         : Base::float32,
+                     : first == 'u'                                     ? Base::uint32
+                                                                        : Base::float32,
                      4);
 }
 
@@ -142,8 +142,7 @@ GlslType builtin_type(std::string_view f, const std::vector<GlslType>& arguments
     return scalar_type(Base::nothing);
   if (one_of(f, {"not", "bitfieldExtract", "bitfieldInsert", "bitfieldReverse", "uaddCarry", "usubBorrow"}))
     return first;
-  if (f.starts_with("atomic") || f.starts_with("imageAtomic"))
-    return arguments.empty() ? GlslType{} : arguments.back();
+  if (f.starts_with("atomic") || f.starts_with("imageAtomic")) return arguments.empty() ? GlslType{} : arguments.back();
   if (f.starts_with("pack")) return scalar_type(f == "packDouble2x32" ? Base::float64 : Base::uint32);
   if (f == "unpackDouble2x32") return vector_type(Base::uint32, 2);
   if (f.starts_with("unpack")) return vector_type(Base::float32, f.find("4x8") != std::string_view::npos ? 4 : 2);

@@ -59,7 +59,8 @@ namespace detail {
 template <class T, int n>
 struct Components;
 // Copied component by component: GCC takes copies of whole structs apart into halves of 16 bytes, which wait for the
-// stores of whole registers that they are read back from.
+// stores of whole registers that they are read back from. No zero is a constant expression for the same reason: it
+// would be cleared by `rep stos`, whose start costs more than a few registers' stores.
 template <class T>
 struct Components<T, 1> {
   T x;
@@ -78,7 +79,8 @@ struct Components<T, 2> {
   TWINSHADE_INLINE constexpr explicit Components(const T& x_, const T& y_) : x(x_), y(y_) {}
   TWINSHADE_INLINE constexpr Components(const Components& o) : x(o.x), y(o.y) {}
   TWINSHADE_INLINE constexpr Components& operator=(const Components& o) {
-    x = o.x; y = o.y;
+    x = o.x;
+    y = o.y;
     return *this;
   }
 };
@@ -89,7 +91,9 @@ struct Components<T, 3> {
   TWINSHADE_INLINE constexpr explicit Components(const T& x_, const T& y_, const T& z_) : x(x_), y(y_), z(z_) {}
   TWINSHADE_INLINE constexpr Components(const Components& o) : x(o.x), y(o.y), z(o.z) {}
   TWINSHADE_INLINE constexpr Components& operator=(const Components& o) {
-    x = o.x; y = o.y; z = o.z;
+    x = o.x;
+    y = o.y;
+    z = o.z;
     return *this;
   }
 };
@@ -97,10 +101,14 @@ template <class T>
 struct Components<T, 4> {
   T x, y, z, w;
   TWINSHADE_INLINE Components() : x{}, y{}, z{}, w{} {}
-  TWINSHADE_INLINE constexpr explicit Components(const T& x_, const T& y_, const T& z_, const T& w_) : x(x_), y(y_), z(z_), w(w_) {}
+  TWINSHADE_INLINE constexpr explicit Components(const T& x_, const T& y_, const T& z_, const T& w_)
+      : x(x_), y(y_), z(z_), w(w_) {}
   TWINSHADE_INLINE constexpr Components(const Components& o) : x(o.x), y(o.y), z(o.z), w(o.w) {}
   TWINSHADE_INLINE constexpr Components& operator=(const Components& o) {
-    x = o.x; y = o.y; z = o.z; w = o.w;
+    x = o.x;
+    y = o.y;
+    z = o.z;
+    w = o.w;
     return *this;
   }
 };

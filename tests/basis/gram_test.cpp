@@ -136,7 +136,8 @@ TEST_CASE("condition numbers and Frobenius norms of I - B^T G^-1 B are those of 
   const Eigen::LLT<Matrix> lengths(product_matrix("sh5", "sh5", points));
   for (const Row& row : rows) {
     CAPTURE(row.basis);
-    const Matrix gram = product_matrix(row.basis, row.basis, points), moments = product_matrix(row.basis, "sh5", points);
+    const Matrix gram = product_matrix(row.basis, row.basis, points),
+                 moments = product_matrix(row.basis, "sh5", points);
     const Matrix unit = lengths.matrixL().solve(moments.transpose());
     const Matrix kept = unit * gram.llt().solve(unit.transpose());
     for (int order = 2; order <= 5; ++order) {

@@ -125,7 +125,8 @@ TEST_CASE("symmetries hold to the last bit") {
     minus_x.push_back(-x.back());
   }
   const auto check_all = [&](Function function, bool odd) {
-    const std::vector<float> a = evaluate(all_functions(), function, x, y), b = evaluate(all_functions(), function, minus_x, y);
+    const std::vector<float> a = evaluate(all_functions(), function, x, y),
+                             b = evaluate(all_functions(), function, minus_x, y);
     int broken = 0;
     for (std::size_t i = 0; i < x.size(); ++i) broken += !(a[i] == (odd ? -b[i] : b[i])) && !std::isnan(a[i]);
     CAPTURE(static_cast<int>(function));

@@ -16,9 +16,9 @@
 #include "tests/scenes/temporary_folder.h"
 
 using namespace twinshade;
-using twinshade::test::has_note;
 using glm::dvec3;
 using nlohmann::json;
+using twinshade::test::has_note;
 
 namespace {
 

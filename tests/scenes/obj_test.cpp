@@ -9,8 +9,8 @@
 #include "tests/scenes/temporary_folder.h"
 
 using namespace twinshade;
-using twinshade::test::has_note;
 using glm::dvec3;
+using twinshade::test::has_note;
 
 namespace {
 

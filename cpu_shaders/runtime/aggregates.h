@@ -59,11 +59,14 @@ namespace detail {
 template <class T, int n>
 struct Components;
 // Copied component by component: GCC takes copies of whole structs apart into halves of 16 bytes, which wait for the
-// stores of whole registers that they are read back from. No zero is a constant expression for the same reason: it
-// would be cleared by `rep stos`, whose start costs more than a few registers' stores.
+// stores of whole registers that they are read back from. Zero lanes are no constant expression for the same reason:
+// they would be cleared by `rep stos`, whose start costs more than a few registers' stores.
+template <class T>
+concept OneLane = T::width == 1;
 template <class T>
 struct Components<T, 1> {
   T x;
+  constexpr Components() requires OneLane<T> : x{} {}
   TWINSHADE_INLINE Components() : x{} {}
   TWINSHADE_INLINE constexpr explicit Components(const T& x_) : x(x_) {}
   TWINSHADE_INLINE constexpr Components(const Components& o) : x(o.x) {}
@@ -75,6 +78,7 @@ struct Components<T, 1> {
 template <class T>
 struct Components<T, 2> {
   T x, y;
+  constexpr Components() requires OneLane<T> : x{}, y{} {}
   TWINSHADE_INLINE Components() : x{}, y{} {}
   TWINSHADE_INLINE constexpr explicit Components(const T& x_, const T& y_) : x(x_), y(y_) {}
   TWINSHADE_INLINE constexpr Components(const Components& o) : x(o.x), y(o.y) {}
@@ -87,6 +91,7 @@ struct Components<T, 2> {
 template <class T>
 struct Components<T, 3> {
   T x, y, z;
+  constexpr Components() requires OneLane<T> : x{}, y{}, z{} {}
   TWINSHADE_INLINE Components() : x{}, y{}, z{} {}
   TWINSHADE_INLINE constexpr explicit Components(const T& x_, const T& y_, const T& z_) : x(x_), y(y_), z(z_) {}
   TWINSHADE_INLINE constexpr Components(const Components& o) : x(o.x), y(o.y), z(o.z) {}
@@ -100,6 +105,7 @@ struct Components<T, 3> {
 template <class T>
 struct Components<T, 4> {
   T x, y, z, w;
+  constexpr Components() requires OneLane<T> : x{}, y{}, z{}, w{} {}
   TWINSHADE_INLINE Components() : x{}, y{}, z{}, w{} {}
   TWINSHADE_INLINE constexpr explicit Components(const T& x_, const T& y_, const T& z_, const T& w_)
       : x(x_), y(y_), z(z_), w(w_) {}

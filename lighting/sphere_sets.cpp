@@ -11,6 +11,7 @@
 #include "lighting/visibility_bake.h"
 
 namespace twinshade {
+
 SphereSets::SphereSets(std::uint32_t rays, std::uint64_t seed) : rays_(rays), seed_(seed) {
   // As many sets as fit a few megabytes: neighbouring texels almost never share one.
   count_ = std::clamp<std::uint32_t>(65536u / rays, 16u, 4096u);

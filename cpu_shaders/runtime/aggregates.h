@@ -58,11 +58,12 @@ concept LaneOrVec = Lane<T> || Vec<T>;
 namespace detail {
 template <class T, int n>
 struct Components;
+template <class T>
+concept OneLane = T::width == 1;
+
 // Copied component by component: GCC takes copies of whole structs apart into halves of 16 bytes, which wait for the
 // stores of whole registers that they are read back from. Zero lanes are no constant expression for the same reason:
 // they would be cleared by `rep stos`, whose start costs more than a few registers' stores.
-template <class T>
-concept OneLane = T::width == 1;
 template <class T>
 struct Components<T, 1> {
   T x;

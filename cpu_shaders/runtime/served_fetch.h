@@ -400,7 +400,7 @@ TWINSHADE_INLINE mat<typename N::F, 4, 4> exact_fetch_4(Sampler2DArray<Real> map
     const TextureView& view = *maps.view;
     // Of the padding only copies of the last layer are read: what the GLSL reads there.
     const I most(static_cast<std::int32_t>(view.texel_pitch / 4) - 4);
-    if (view.texel_pitch > 4 && all(first >= I(0) & first <= most)) {
+    if (view.texel_pitch > 4 && all((first >= I(0)) & (first <= most))) {
       auto where = detail::locate<N>(view, taps);
       if constexpr (I::width == 1)
         return detail::filtered_4<N::width>(view.texels + std::ptrdiff_t{first.value()} * 4, where);

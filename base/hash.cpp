@@ -18,6 +18,15 @@ constexpr std::uint32_t kRound[64] = {
     0x19a4c116, 0x1e376c08, 0x2748774c, 0x34b0bcb5, 0x391c0cb3, 0x4ed8aa4a, 0x5b9cca4f, 0x682e6ff3,
     0x748f82ee, 0x78a5636f, 0x84c87814, 0x8cc70208, 0x90befffa, 0xa4506ceb, 0xbef9a3f7, 0xc67178f2};
 
+// 6.2.2, step 3, but for the moves; key: K_t + W_t.
+[[gnu::always_inline]] inline void round(std::uint32_t key, std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                                         std::uint32_t& d, std::uint32_t e, std::uint32_t f, std::uint32_t g,
+                                         std::uint32_t& h) {
+  const std::uint32_t t1 = h + (std::rotr(e, 6) ^ std::rotr(e, 11) ^ std::rotr(e, 25)) + ((e & f) ^ (~e & g)) + key;
+  d += t1;
+  h = t1 + (std::rotr(a, 2) ^ std::rotr(a, 13) ^ std::rotr(a, 22)) + ((a & b) ^ (a & c) ^ (b & c));
+}
+
 }  // namespace
 
 Sha256::Sha256()
@@ -34,18 +43,20 @@ void Sha256::block(const std::uint8_t* bytes) {
     w[i] = w[i - 16] + (std::rotr(a, 7) ^ std::rotr(a, 18) ^ (a >> 3)) + w[i - 7] +
            (std::rotr(b, 17) ^ std::rotr(b, 19) ^ (b >> 10));
   }
-  std::uint32_t s[8];
-  std::memcpy(s, state_, sizeof s);
-  for (int i = 0; i < 64; ++i) {
-    const std::uint32_t t1 = s[7] + (std::rotr(s[4], 6) ^ std::rotr(s[4], 11) ^ std::rotr(s[4], 25)) +
-                             ((s[4] & s[5]) ^ (~s[4] & s[6])) + kRound[i] + w[i];
-    const std::uint32_t t2 = (std::rotr(s[0], 2) ^ std::rotr(s[0], 13) ^ std::rotr(s[0], 22)) +
-                             ((s[0] & s[1]) ^ (s[0] & s[2]) ^ (s[1] & s[2]));
-    for (int j = 7; j > 0; --j) s[j] = s[j - 1];
-    s[4] += t1;
-    s[0] = t1 + t2;
+  // The working variables move up by one each round: here their names do instead, so that they stay in registers.
+  auto [a, b, c, d, e, f, g, h] = state_;
+  for (int i = 0; i < 64; i += 8) {
+    round(kRound[i] + w[i], a, b, c, d, e, f, g, h);
+    round(kRound[i + 1] + w[i + 1], h, a, b, c, d, e, f, g);
+    round(kRound[i + 2] + w[i + 2], g, h, a, b, c, d, e, f);
+    round(kRound[i + 3] + w[i + 3], f, g, h, a, b, c, d, e);
+    round(kRound[i + 4] + w[i + 4], e, f, g, h, a, b, c, d);
+    round(kRound[i + 5] + w[i + 5], d, e, f, g, h, a, b, c);
+    round(kRound[i + 6] + w[i + 6], c, d, e, f, g, h, a, b);
+    round(kRound[i + 7] + w[i + 7], b, c, d, e, f, g, h, a);
   }
-  for (int i = 0; i < 8; ++i) state_[i] += s[i];
+  const std::uint32_t after[8] = {a, b, c, d, e, f, g, h};
+  for (int i = 0; i < 8; ++i) state_[i] += after[i];
 }
 
 void Sha256::add(const void* data, std::size_t count) {

@@ -31,10 +31,11 @@ struct Lights {
   std::vector<double> x, y, z, r, g, b;
 
   explicit Lights(const Environment& environment) {
+    const PixelDirections directions(environment.width, environment.height);
     for (std::uint32_t row = 0; row < environment.height; ++row) {
       const double solid_angle = environment.pixel_solid_angle(row);
       for (std::uint32_t column = 0; column < environment.width; ++column) {
-        const glm::dvec3 d = environment.pixel_direction(column, row);
+        const glm::dvec3 d = directions(column, row);
         const glm::dvec3 power =
             glm::dvec3(environment.radiance[std::size_t(row) * environment.width + column]) * solid_angle;
         add(d, power);
@@ -69,11 +70,12 @@ std::vector<double> environment_radiance(const Environment& environment, int ord
   if (order < 1 || order > 6) throw UserError("order " + std::to_string(order) + " is not within 1 to 6");
   check(environment);
   const int functions = std::max(4, order * order), count = order * order;
+  const PixelDirections direction(environment.width, environment.height);
   std::vector<std::vector<double>> rows(environment.height);
   parallel_for(environment.height, [&](std::size_t row, int) {
     std::vector<glm::dvec3> directions;
     for (std::uint32_t column = 0; column < environment.width; ++column)
-      directions.push_back(environment.pixel_direction(column, std::uint32_t(row)));
+      directions.push_back(direction(column, std::uint32_t(row)));
     const std::vector<double> values = radiance_basis(directions, functions);
     rows[row].assign(std::size_t(count) * 3, 0.0);
     for (std::uint32_t column = 0; column < environment.width; ++column) {

@@ -94,9 +94,10 @@ Environment environment_of_radiance(std::span<const double> radiance, int order,
   environment.name = "SH";
   environment.width = width, environment.height = width / 2;
   environment.radiance.resize(std::size_t(width) * environment.height);
+  const PixelDirections direction(width, environment.height);
   parallel_for(environment.height, [&](std::size_t y, int) {
     std::vector<glm::dvec3> directions;
-    for (std::uint32_t x = 0; x < width; ++x) directions.push_back(environment.pixel_direction(x, std::uint32_t(y)));
+    for (std::uint32_t x = 0; x < width; ++x) directions.push_back(direction(x, std::uint32_t(y)));
     const std::vector<double> values = radiance_basis(directions, kMostRadianceCount);
     for (std::uint32_t x = 0; x < width; ++x) {
       glm::dvec3 sum(0);

@@ -13,8 +13,17 @@
 namespace twinshade {
 namespace {
 
+using glm::dvec2;
 using glm::dvec3;
 using portable::kPi;
+
+dvec2 sine_cosine(double angle) { return {portable::sin(angle), portable::cos(angle)}; }
+// Sine and cosine of a pixel centre's longitude and colatitude.
+dvec2 column_longitude(std::uint32_t x, std::uint32_t width) { return sine_cosine(kPi - 2 * kPi * (x + 0.5) / width); }
+dvec2 row_colatitude(std::uint32_t y, std::uint32_t height) { return sine_cosine(kPi * (y + 0.5) / height); }
+dvec3 direction(const dvec2& longitude, const dvec2& colatitude) {
+  return {longitude.x * colatitude.x, colatitude.y, longitude.y * colatitude.x};
+}
 
 std::uint32_t wrap(std::int64_t x, std::uint32_t width) {
   const std::int64_t rest = x % std::int64_t(width);
@@ -45,9 +54,16 @@ double Environment::pixel_solid_angle(std::uint32_t y) const {
 }
 
 dvec3 Environment::pixel_direction(std::uint32_t x, std::uint32_t y) const {
-  const double longitude = kPi - 2 * kPi * (x + 0.5) / width, colatitude = kPi * (y + 0.5) / height;
-  const double ring = portable::sin(colatitude);
-  return {portable::sin(longitude) * ring, portable::cos(colatitude), portable::cos(longitude) * ring};
+  return direction(column_longitude(x, width), row_colatitude(y, height));
+}
+
+PixelDirections::PixelDirections(std::uint32_t width, std::uint32_t height) : longitudes_(width), colatitudes_(height) {
+  for (std::uint32_t x = 0; x < width; ++x) longitudes_[x] = column_longitude(x, width);
+  for (std::uint32_t y = 0; y < height; ++y) colatitudes_[y] = row_colatitude(y, height);
+}
+
+dvec3 PixelDirections::operator()(std::uint32_t x, std::uint32_t y) const {
+  return direction(longitudes_[x], colatitudes_[y]);
 }
 
 std::vector<std::string> environment_names() { return {"sky", "studio", "window", "constant"}; }

@@ -23,6 +23,17 @@ struct Environment {
   glm::dvec3 pixel_direction(std::uint32_t x, std::uint32_t y) const;
 };
 
+// Environment::pixel_direction of all pixels of a size, for those who need most of them: a row's and a column's sines
+// and cosines are computed once.
+class PixelDirections {
+ public:
+  PixelDirections(std::uint32_t width, std::uint32_t height);
+  glm::dvec3 operator()(std::uint32_t x, std::uint32_t y) const;
+
+ private:
+  std::vector<glm::dvec2> longitudes_, colatitudes_;  // sine, cosine
+};
+
 // "sky", "studio", "window", "constant", or a .hdr/.exr file. UserError: unknown name (nearest suggested), unreadable
 // or truncated file, NaN, infinite or negative radiance (naming the pixel; clamp_radiance replaces NaN and negatives by
 // 0 and infinities by the largest finite value instead).

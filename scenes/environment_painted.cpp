@@ -21,12 +21,12 @@ Environment paint(const char* name, std::uint32_t width, std::uint32_t height, i
   environment.radiance.resize(std::size_t(width) * height);
   // A grid of the finer size has the sample points as its pixel centres.
   const auto fine = std::uint32_t(samples);
-  const Environment grid{"", width * fine, height * fine, {}};
+  const PixelDirections directions(width * fine, height * fine);
   for (std::uint32_t y = 0; y < height; ++y)
     for (std::uint32_t x = 0; x < width; ++x) {
       dvec3 sum(0);
       for (std::uint32_t j = 0; j < fine; ++j)
-        for (std::uint32_t i = 0; i < fine; ++i) sum += radiance(grid.pixel_direction(x * fine + i, y * fine + j));
+        for (std::uint32_t i = 0; i < fine; ++i) sum += radiance(directions(x * fine + i, y * fine + j));
       environment.radiance[std::size_t(y) * width + x] = glm::vec3(sum / double(fine * fine));
     }
   return environment;

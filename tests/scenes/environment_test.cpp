@@ -38,6 +38,7 @@ dvec3 turned(const dvec3& d, double degrees) {
 
 TEST_CASE("lat-long follows OpenEXR: zenith in row 0, longitude pi at the left edge") {
   const Environment e{"", 8, 4, std::vector<glm::vec3>(32)};
+  const PixelDirections directions(8, 4);
   for (std::uint32_t y = 0; y < 4; ++y)
     for (std::uint32_t x = 0; x < 8; ++x) {
       const double longitude = kPi - 2 * kPi * (x + 0.5) / 8, latitude = kPi / 2 - kPi * (y + 0.5) / 4;
@@ -45,6 +46,7 @@ TEST_CASE("lat-long follows OpenEXR: zenith in row 0, longitude pi at the left e
                            std::cos(longitude) * std::cos(latitude));
       CHECK(glm::length(e.pixel_direction(x, y) - expected) < 1e-14);
       CHECK(std::fabs(glm::length(e.pixel_direction(x, y)) - 1) < 1e-15);
+      CHECK(directions(x, y) == e.pixel_direction(x, y));
     }
   CHECK(e.pixel_direction(0, 0).y > 0.9);
 }

@@ -31,9 +31,10 @@ double srgb_encoded(double linear) {
 }
 
 // Writes a y-down picture whose rows are those of a y-up buffer, last row first.
-template <class T>
-void write_rows(const std::string& path, std::uint32_t width, std::uint32_t height, int channels,
-                const std::vector<T>& y_up, const PictureOptions& options) {
+template <class Rows>
+void write_rows(const std::string& path, std::uint32_t width, std::uint32_t height, int channels, const Rows& y_up,
+                const PictureOptions& options) {
+  using T = typename Rows::value_type;
   const std::size_t row = std::size_t(width) * channels;
   write_image_file(path, {width, height, channels, sizeof(T) == 4, y_up.data() + (height - 1) * row,
                           -std::ptrdiff_t(row * sizeof(T)), options.notes});

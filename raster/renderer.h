@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/line_vector.h"
 #include "bundle/bundle.h"
 #include "cpu_shaders/runtime/shader_abi.h"
 #include "cpu_shaders/shader_source.h"
@@ -22,10 +23,10 @@ inline constexpr std::uint32_t kNoPrimitive = 0xffffffffu;
 // Pixel (x, y) is at index y * width + x, y upwards as in OpenGL (row 0 at the bottom).
 struct Frame {
   std::uint32_t width = 0, height = 0;
-  std::vector<float> color;                // RGBA32F of the first output; 0 where nothing was drawn
-  std::vector<float> depth;                // [0, 1]; 1 where nothing was drawn
-  std::vector<std::uint32_t> primitive_id; // kNoPrimitive where nothing was drawn
-  std::vector<std::uint8_t> coverage;      // 1 where a primitive was drawn (after discard), else 0
+  LineVector<float> color;                 // RGBA32F of the first output; 0 where nothing was drawn
+  LineVector<float> depth;                 // [0, 1]; 1 where nothing was drawn
+  LineVector<std::uint32_t> primitive_id;  // kNoPrimitive where nothing was drawn
+  LineVector<std::uint8_t> coverage;       // 1 where a primitive was drawn (after discard), else 0
 
   // Filled if DrawOptions::capture_attributes: the shader's inputs as it saw them, in the order of attribute_names, only
   // meaningful where coverage is 1. Planar: component c of pixel p at [c * width * height + p]; integers by bit pattern.

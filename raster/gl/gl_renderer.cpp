@@ -128,10 +128,10 @@ class GlRenderer final : public Renderer {
     }
   }
 
-  template <class T>
-  void copy_out(std::uint64_t offset, std::size_t count, std::vector<T>& to) const {
+  template <class Vector>
+  void copy_out(std::uint64_t offset, std::size_t count, Vector& to) const {
     to.resize(count);
-    if (count != 0) std::memcpy(to.data(), session_.memory() + offset, count * sizeof(T));
+    if (count != 0) std::memcpy(to.data(), session_.memory() + offset, count * sizeof to[0]);
   }
 
   Frame frame_of(const Bundle& bundle, DrawReply& reply, const Frame* cpu_frame) const {

@@ -5,6 +5,8 @@
 #include <memory>
 #include <new>
 
+#include "base/line_vector.h"
+
 namespace twinshade::tiled {
 
 template <class T>
@@ -12,7 +14,7 @@ class AlignedArray {
  public:
   AlignedArray() = default;
   explicit AlignedArray(std::size_t count)
-      : data_(static_cast<T*>(::operator new (count * sizeof(T), std::align_val_t{kLine}))) {
+      : data_(static_cast<T*>(::operator new (count * sizeof(T), std::align_val_t{kCacheLine}))) {
     std::uninitialized_value_construct_n(data_.get(), count);
   }
   T* data() { return data_.get(); }
@@ -21,9 +23,8 @@ class AlignedArray {
   const T& operator[](std::size_t i) const { return data_.get()[i]; }
 
  private:
-  static constexpr std::size_t kLine = 64;
   struct Free {
-    void operator()(T* p) const { ::operator delete (p, std::align_val_t{kLine}); }
+    void operator()(T* p) const { ::operator delete (p, std::align_val_t{kCacheLine}); }
   };
   std::unique_ptr<T, Free> data_;
 };

@@ -1,6 +1,7 @@
 // The frame's hash: what "the same frame" means when renderers, thread counts and machines are compared.
 #include <bit>
 #include <cstring>
+#include <span>
 
 #include "base/hash.h"
 #include "raster/renderer.h"
@@ -9,7 +10,7 @@ namespace twinshade {
 namespace {
 
 // NaN compares as a class: its payload is the processor's choice.
-void add_floats(Sha256& hash, const std::vector<float>& values) {
+void add_floats(Sha256& hash, std::span<const float> values) {
   std::uint32_t block[1024];
   for (std::size_t begin = 0; begin < values.size(); begin += 1024) {
     const std::size_t count = std::min<std::size_t>(1024, values.size() - begin);

@@ -1,45 +1,15 @@
 #include "cpu_shaders/lint/tokens.h"
 
-#include <glslang/Public/ResourceLimits.h>
-#include <glslang/Public/ShaderLang.h>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <mutex>
 #include <string_view>
 
 #include "base/error.h"
+#include "cpu_shaders/source/preprocess.h"
 
 namespace twinshade::lint_detail {
 namespace {
-
-std::string preprocess(const ShaderSource& source) {
-  static std::mutex mutex;
-  const std::lock_guard<std::mutex> lock(mutex);
-  struct Process {
-    Process() { glslang::InitializeProcess(); }
-    ~Process() { glslang::FinalizeProcess(); }
-  };
-  static const Process process;
-
-  const int version = source.es ? std::max(source.version, 310) : std::max(source.version, 450);
-  const bool has_version = source.text.rfind("#version", 0) == 0;
-  const std::string text = "#version " + std::to_string(version) + (source.es ? " es\n" : "\n") +
-                           "#extension GL_GOOGLE_cpp_style_line_directive : require\n" +
-                           source.text.substr(has_version ? source.text.find('\n') + 1 : 0);
-  glslang::TShader shader(EShLangFragment);
-  const char* strings[] = {text.c_str()};
-  const char* names[] = {source.files.at(0).c_str()};
-  const int lengths[] = {static_cast<int>(text.size())};
-  shader.setStringsWithLengthsAndNames(strings, lengths, names, 1);
-  glslang::TShader::ForbidIncluder no_includes;
-  std::string expanded;
-  if (!shader.preprocess(GetDefaultResources(), version, source.es ? EEsProfile : ENoProfile, false, false,
-                         EShMsgDefault, &expanded, no_includes))
-    throw UserError(source.files.at(0) + ": glslang cannot preprocess this shader: " + shader.getInfoLog());
-  return expanded;
-}
 
 constexpr std::array<std::string_view, 23> kLongSymbols = {
     "<<=", ">>=", "++", "--", "<=", ">=", "==", "!=", "&&", "||", "^^", "<<",

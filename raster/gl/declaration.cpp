@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "cpu_shaders/source/preprocess.h"
 
 namespace twinshade::gl {
 namespace {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "cpu_shaders/source/preprocess.h"
 #include "raster/gl/constant_integer.h"
 #include "raster/gl/declaration.h"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cpu_shaders/rewrite/make_exact.h"
+#include "cpu_shaders/source/preprocess.h"
 
 namespace twinshade::gl {
 namespace {

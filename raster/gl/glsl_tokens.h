@@ -25,10 +25,6 @@ struct TokenText {
   std::vector<std::string> extensions;  // the #extension lines, taken out of the text
 };
 
-// Text with comments gone and macros expanded, by glslang's preprocessor: the one that the CPU's translation also goes
-// through, so that both machines see the same tokens. UserError "file:line: message" for what the preprocessor rejects.
-std::string preprocess(const ShaderSource& source);
-
 // `preprocessed` may hold #version (dropped), #extension (collected), #line N "file" (written as #line N k, k an index
 // into source.files) and #pragma (kept).
 TokenText tokenize(const ShaderSource& source, const std::string& preprocessed);

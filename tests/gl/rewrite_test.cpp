@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "cpu_shaders/source/preprocess.h"
 #include "raster/gl/constant_integer.h"
 #include "raster/gl/declaration.h"
 #include "raster/gl/fragment_rewrite.h"

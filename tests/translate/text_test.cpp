@@ -26,6 +26,23 @@ TEST_CASE("readable text has the GLSL as comments, compiled text #line") {
   CHECK(of(glsl).cpp == readable);
 }
 
+// glslang is told another version than the author's where that is quicker, or where the author's has no SPIR-V.
+TEST_CASE("whatever version a shader is read as, __VERSION__ is the author's and newer built-ins are there") {
+  const std::string body = "out vec4 c;\nvoid main() { c = vec4(float(__VERSION__)); }\n";
+  for (const char* version : {"330", "440", "450", "460"})
+    CHECK(has(of("#version " + std::string(version) + "\n" + body).cpp, "UF(" + std::string(version) + ".0f)"));
+  for (const char* version : {"300", "310", "320"})
+    CHECK(has(of("#version " + std::string(version) + " es\nprecision highp float;\n" + body).cpp,
+              "UF(" + std::string(version) + ".0f)"));
+  CHECK(has(of("#version 330\nout vec4 c;\nvoid main() { precise float x = float(__VERSION__); c = vec4(x); }\n").cpp,
+            "UF(330.0f)"));
+  const std::string newer =
+      "in float x;\nout vec4 c;\nvoid main() { c = vec4(dFdxFine(x), gl_HelperInvocation, 0, 1); }\n";
+  CHECK(has(of("#version 450\n" + newer).cpp, "dFdxFine"));
+  CHECK(has(of(newer).cpp, "dFdxFine"));
+  CHECK(has(of("#version 450\n#ifdef GL_SPIRV\n" + body + "#endif\n").cpp, "UF(450.0f)"));
+}
+
 TEST_CASE("float constants are the bits of the binary") {
   const std::string cpp =
       of("#version 450\nin float x;\nout vec4 c;\nvoid main() { c = vec4(x * 0.1, x * 0.5, x * -3.0, x * 1e-40); }\n")

@@ -1,0 +1,58 @@
+#include "cpu_shaders/source/glslang_environment.h"
+
+#include <algorithm>
+#include <regex>
+#include <sstream>
+
+namespace twinshade {
+
+void start_glslang() {
+  struct Process {
+    Process() { glslang::InitializeProcess(); }
+    ~Process() { glslang::FinalizeProcess(); }
+  };
+  static const Process process;
+}
+
+EShMessages set_opengl_environment(glslang::TShader& shader, EShLanguage stage) {
+  shader.setEnvInput(glslang::EShSourceGlsl, stage, glslang::EShClientOpenGL, 100);
+  shader.setEnvClient(glslang::EShClientOpenGL, glslang::EShTargetOpenGL_450);
+  shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_0);
+  return static_cast<EShMessages>(EShMsgSpvRules | EShMsgDebugInfo);
+}
+
+int glslang_version(const ShaderSource& source) {
+  if (source.es) return std::max(source.version, 310);
+  constexpr int kSmallerTable = 440;
+  const auto mentions = [&](const char* text) { return source.text.find(text) != std::string::npos; };
+  return source.version > kSmallerTable && !mentions("__VERSION__") && !mentions("GL_") ? kSmallerTable
+                                                                                        : source.version;
+}
+
+std::string glslang_text(const ShaderSource& source, int version) {
+  const std::string& text = source.text;
+  const bool has_version = text.rfind("#version", 0) == 0;
+  const std::size_t end = has_version ? text.find('\n') : 0;
+  const std::size_t after = !has_version ? 0 : end == std::string::npos ? text.size() : end + 1;
+  return "#version " + std::to_string(version) + (source.es ? " es\n" : "\n") +
+         "#extension GL_GOOGLE_cpp_style_line_directive : require\n" + text.substr(after);
+}
+
+// Lines of the log read `ERROR: file:line: 'token' : message`.
+std::string first_glslang_error(const ShaderSource& source, const char* log) {
+  std::istringstream lines(log);
+  static const std::regex with_position(R"(^(?:ERROR|WARNING): (.*):(\d+): (.*)$)");
+  std::string line, fallback;
+  while (std::getline(lines, line)) {
+    if (line.rfind("ERROR: ", 0) != 0) continue;
+    std::smatch match;
+    if (std::regex_match(line, match, with_position)) {
+      const std::string file = match[1].str() == "0" ? source.files.at(0) : match[1].str();
+      return file + ":" + match[2].str() + ": " + match[3].str();
+    }
+    if (fallback.empty()) fallback = source.files.at(0) + ": " + line.substr(7);
+  }
+  return fallback.empty() ? source.files.at(0) + ": glslang refused the shader: " + log : fallback;
+}
+
+}  // namespace twinshade

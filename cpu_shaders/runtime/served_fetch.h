@@ -453,12 +453,19 @@ TWINSHADE_INLINE Colors5<N> exact_fetch_5(Sampler2DArray<Real> maps, const Exact
     return {{layer(0), layer(1), layer(2), layer(3), layer(4)}};
   }
   if constexpr (is_simd<N>) {
-    if (all(five >= I(0) & five < I(static_cast<std::int32_t>(view.texel_pitch / 16)))) {
+    using U = typename N::U;
+    const auto first_of_five = [&] {
       auto where = detail::locate<N>(view, taps);
-      using U = typename N::U;
       for (auto& at : where.at) at = at + U(five.template to<std::uint32_t>() * 4u);
-      return detail::filtered_5<N>(view.texels, where);
-    }
+      return where;
+    };
+    const I whole(static_cast<std::int32_t>(view.texel_pitch / 16));
+    if (all(five >= I(0) & five < whole)) return detail::filtered_5<N>(view.texels, first_of_five());
+    if constexpr (I::width == 1)
+      if (five.value() == whole.value() && view.texel_pitch % 16 != 0) {  // one layer is left
+        const auto only = detail::rgb(detail::filtered<N::width>(view.texels, first_of_five()));
+        return {{only, only, only, only, only}};
+      }
   }
   const vec<typename N::I, 4> texel(taps.texel);
   using LaneTexel = detail::LaneTexel;

@@ -10,7 +10,7 @@
 
 namespace twinshade {
 
-inline constexpr std::uint32_t kAbiVersion = 5;
+inline constexpr std::uint32_t kAbiVersion = 6;
 
 // What a piece of translated code was built for. The numbers are an order: a machine that has avx512 has all before it.
 enum class Isa : std::uint8_t { baseline = 0, avx2 = 1, avx512 = 2 };  // baseline: x86-64-v2, or AArch64 with NEON
@@ -41,7 +41,8 @@ struct ShaderUniform {  // a leaf of a uniform outside any block: structs are fl
 enum class ResourceKind : std::uint8_t { uniform_block, storage_buffer, sampler_2d, sampler_2d_array, sampler_cube };
 
 // How the layers of an array texture should lie: one after another; all of a texel's side by side, RGBA; the same, but
-// RGB alone, five layers to 16 floats, of which the last is not used.
+// RGB alone, five layers to 16 floats, of which the last is not used, and where one layer is left in the end, that
+// to 4.
 enum class LayerOrder : std::uint8_t { apart, together, colors_together };
 
 struct ShaderResource {

@@ -214,21 +214,24 @@ class Binder {
     view.layer_pitch = 4;
   }
 
-  // RGB of layers side by side at each texel, five to a cache line; the last one repeated at the end.
+  // RGB of layers side by side at each texel, five to a cache line, as LayerOrder::colors_together says; the last one
+  // repeated in a last five of more than one.
   void interleave_colors(TextureView& view) {
-    const auto layers = std::size_t(view.layers), fives = (layers + 4) / 5;
+    const auto layers = std::size_t(view.layers);
+    const std::size_t filled = layers % 5 == 1 ? layers : (layers + 4) / 5 * 5;
+    const std::size_t pitch = filled / 5 * 16 + filled % 5 * 4;
     const std::size_t width = std::size_t(view.width), height = std::size_t(view.height);
-    AlignedArray<float>& to = draw_.interleaved.emplace_back(width * height * fives * 16);
+    AlignedArray<float>& to = draw_.interleaved.emplace_back(width * height * pitch);
     parallel_for(height, [&](std::size_t y, int) {
-      for (std::size_t layer = 0; layer < fives * 5; ++layer) {
+      for (std::size_t layer = 0; layer < filled; ++layer) {
         const float* from = view.texels + std::ptrdiff_t(std::min(layer, layers - 1)) * view.layer_pitch +
                             std::ptrdiff_t(y) * view.row_pitch;
         for (std::size_t x = 0; x < width; ++x)
-          std::copy_n(from + x * 4, 3, &to[((y * width + x) * fives + layer / 5) * 16 + layer % 5 * 3]);
+          std::copy_n(from + x * 4, 3, &to[(y * width + x) * pitch + layer / 5 * 16 + layer % 5 * 3]);
       }
     });
     view.texels = to.data();
-    view.texel_pitch = std::ptrdiff_t(fives * 16);
+    view.texel_pitch = std::ptrdiff_t(pitch);
     view.row_pitch = view.texel_pitch * std::ptrdiff_t(width);
     view.layer_pitch = 3;
   }

@@ -193,17 +193,18 @@ struct SideBySide {
     return view;
   }
   TextureView colors(const TextureView& from) {
-    const std::ptrdiff_t fives = (from.layers + 4) / 5;
-    texels.assign(static_cast<std::size_t>(from.width * from.height * fives * 16), NAN);
+    const std::ptrdiff_t filled = from.layers % 5 == 1 ? from.layers : (from.layers + 4) / 5 * 5;
+    const std::ptrdiff_t pitch = filled / 5 * 16 + filled % 5 * 4;
+    texels.assign(static_cast<std::size_t>(from.width * from.height * pitch), NAN);
     for (std::ptrdiff_t y = 0; y < from.height; ++y)
       for (std::ptrdiff_t x = 0; x < from.width; ++x)
-        for (std::ptrdiff_t l = 0; l < fives * 5; ++l)
+        for (std::ptrdiff_t l = 0; l < filled; ++l)
           std::copy_n(from.texels + std::min<std::ptrdiff_t>(l, from.layers - 1) * from.layer_pitch +
                           y * from.row_pitch + x * 4,
-                      3, texels.data() + ((y * from.width + x) * fives + l / 5) * 16 + l % 5 * 3);
+                      3, texels.data() + (y * from.width + x) * pitch + l / 5 * 16 + l % 5 * 3);
     TextureView view = from;
     view.texels = texels.data();
-    view.texel_pitch = fives * 16;
+    view.texel_pitch = pitch;
     view.row_pitch = view.texel_pitch * from.width;
     view.layer_pitch = 3;
     return view;
@@ -275,7 +276,7 @@ TEST_CASE("fetches of sphere maps give the bits of their GLSL, side by side in m
 }
 
 TEST_CASE("fetches of five layers' colours give the bits of their GLSL, their colours side by side in memory or not") {
-  for (const std::int32_t layers : {1, 9, 10, 20}) {
+  for (const std::int32_t layers : {1, 6, 9, 10, 11, 20}) {
     CAPTURE(layers);
     const ManyLayers array(layers);
     SideBySide fives;

@@ -192,16 +192,25 @@ TEST_CASE("textures that are read together lie side by side, every texel where t
   CHECK(bound.textures[2].texels == bound.textures[1].texels + 4);
 
   wishes.resources[0].layer_order = LayerOrder::colors_together;
-  const tiled::BoundDraw fives = tiled::bind(bundle, wishes.module(), AttributeMode::exact);
-  const TextureView& view = fives.textures[0];
-  CHECK(view.layer_pitch == 3);
-  CHECK(view.texel_pitch == 32);  // ten layers: the last one is there five times
-  for (std::ptrdiff_t layer = 0; layer < 10; ++layer)
-    for (std::ptrdiff_t y = 0; y < 2; ++y)
-      for (std::ptrdiff_t x = 0; x < 3; ++x)
-        for (std::ptrdiff_t c = 0; c < 3; ++c)
-          CHECK(view.texels[y * view.row_pitch + x * 32 + layer / 5 * 16 + layer % 5 * 3 + c] ==
-                bundle.textures[0].texels[std::size_t(((std::min<std::ptrdiff_t>(layer, 5) * 2 + y) * 3 + x) * 4 + c)]);
+  add("more_coefficients", 7);
+  const auto check_colors = [&](std::size_t texture, std::ptrdiff_t pitch, std::ptrdiff_t filled) {
+    wishes.resources[0].name = bundle.textures[texture].name.c_str();
+    const tiled::BoundDraw fives = tiled::bind(bundle, wishes.module(), AttributeMode::exact);
+    const TextureView& view = fives.textures[0];
+    CHECK(view.layer_pitch == 3);
+    CHECK(view.texel_pitch == pitch);
+    for (std::ptrdiff_t layer = 0; layer < filled; ++layer)
+      for (std::ptrdiff_t y = 0; y < 2; ++y)
+        for (std::ptrdiff_t x = 0; x < 3; ++x)
+          for (std::ptrdiff_t c = 0; c < 3; ++c)
+            CHECK(
+                view.texels[y * view.row_pitch + x * pitch + layer / 5 * 16 + layer % 5 * 3 + c] ==
+                bundle.textures[texture]
+                    .texels[std::size_t(((std::min<std::ptrdiff_t>(layer, view.layers - 1) * 2 + y) * 3 + x) * 4 + c)]);
+  };
+  check_colors(0, 20, 6);   // the sixth layer by itself
+  check_colors(3, 32, 10);  // ten layers: the last one is there four times
+  wishes.resources[0].name = "coefficients";
 
   bundle.textures[2].width = 2, bundle.textures[2].height = 3;  // another size: left as it is
   const tiled::BoundDraw apart = tiled::bind(bundle, wishes.module(), AttributeMode::exact);

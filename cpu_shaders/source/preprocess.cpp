@@ -15,15 +15,15 @@ std::string preprocess(const ShaderSource& source) {
   start_glslang();
   const int version = source.es ? source.version : glslang_version(source);
   const std::string text = glslang_text(source, version);
-  const EShLanguage stage = source.stage == ShaderStage::compute ? EShLangCompute : EShLangFragment;
-  glslang::TShader shader(stage);
+  constexpr EShLanguage kStage = EShLangFragment;  // of any version, and all the same to the preprocessor
+  glslang::TShader shader(kStage);
   const char* strings[] = {text.c_str()};
   const char* names[] = {source.files.at(0).c_str()};
   const int lengths[] = {static_cast<int>(text.size())};
   shader.setStringsWithLengthsAndNames(strings, lengths, names, 1);
   // glslang makes no SPIR-V from ES 300, and its preprocessor refuses to begin: there it goes without.
   const bool spirv = !source.es || version >= 310;
-  const EShMessages messages = spirv ? set_opengl_environment(shader, stage) : EShMsgDefault;
+  const EShMessages messages = spirv ? set_opengl_environment(shader, kStage) : EShMsgDefault;
   glslang::TShader::ForbidIncluder no_includes;
   std::string result;
   if (!shader.preprocess(GetDefaultResources(), version, source.es ? EEsProfile : ENoProfile, false, false, messages,

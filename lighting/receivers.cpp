@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lighting/quadrature.h"
 #include "lighting/texel_coverage.h"
 
 namespace twinshade {

@@ -15,7 +15,7 @@
 namespace twinshade::test {
 namespace {
 
-constexpr std::size_t kBlock = 1024;
+constexpr std::size_t kRowsAtOnce = 1024;
 
 template <class T>
 struct Block {  // 64-byte aligned, zeroed
@@ -40,22 +40,22 @@ std::vector<float> RowShader::run(const std::vector<float>& inputs, std::size_t 
                                   std::span<const TextureView> textures) const {
   TWINSHADE_CHECK_EQ(inputs.size(), rows * module_->input_components);
   TWINSHADE_CHECK_EQ(textures.size(), std::size_t{module_->texture_count});
-  const Block<float> in(module_->input_components * kBlock), out(module_->output_components * kBlock);
-  const Block<float> frag_coord(4 * kBlock), depth(kBlock);
-  const Block<std::uint32_t> live(kBlock), front(kBlock), id(kBlock), kept(kBlock);
+  const Block<float> in(module_->input_components * kRowsAtOnce), out(module_->output_components * kRowsAtOnce);
+  const Block<float> frag_coord(4 * kRowsAtOnce), depth(kRowsAtOnce);
+  const Block<std::uint32_t> live(kRowsAtOnce), front(kRowsAtOnce), id(kRowsAtOnce), kept(kRowsAtOnce);
   const FlushDenormals flush;
   std::vector<float> result(module_->output_components * rows);
-  for (std::size_t first = 0; first < rows; first += kBlock) {
-    const std::size_t count = std::min(kBlock, rows - first);
+  for (std::size_t first = 0; first < rows; first += kRowsAtOnce) {
+    const std::size_t count = std::min(kRowsAtOnce, rows - first);
     for (std::size_t c = 0; c < module_->input_components; ++c)
-      std::copy_n(inputs.data() + c * rows + first, count, in.data + c * kBlock);
-    std::fill_n(live.data, kBlock, 0u);
+      std::copy_n(inputs.data() + c * rows + first, count, in.data + c * kRowsAtOnce);
+    std::fill_n(live.data, kRowsAtOnce, 0u);
     std::fill_n(live.data, count, ~0u);
     shade_(ShaderData{nullptr, textures.data(), nullptr},
-           ShadeCall{static_cast<std::uint32_t>((count + 15) / 16 * 16), static_cast<std::uint32_t>(kBlock), in.data,
-                     frag_coord.data, live.data, front.data, id.data, out.data, depth.data, kept.data});
+           ShadeCall{static_cast<std::uint32_t>((count + 15) / 16 * 16), static_cast<std::uint32_t>(kRowsAtOnce),
+                     in.data, frag_coord.data, live.data, front.data, id.data, out.data, depth.data, kept.data});
     for (std::size_t c = 0; c < module_->output_components; ++c)
-      std::copy_n(out.data + c * kBlock, count, result.data() + c * rows + first);
+      std::copy_n(out.data + c * kRowsAtOnce, count, result.data() + c * rows + first);
   }
   return result;
 }

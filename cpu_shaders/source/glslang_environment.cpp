@@ -5,6 +5,21 @@
 #include <sstream>
 
 namespace twinshade {
+namespace {
+
+// Versions that mean what 450 means and whose tables are read faster, in a third and in half of the time. Three things
+// that 400 lacks are extensions without functions, all part of 430. Where 400 still does not accept something, 440 may.
+constexpr int kSmallestTable = 400, kSmallTable = 440, kLatest = 450, kHasTheExtensions = 430;
+constexpr const char* kExtensionsOfSmallest =
+    "#extension GL_ARB_shading_language_420pack : enable\n"
+    "#extension GL_ARB_separate_shader_objects : enable\n"
+    "#extension GL_ARB_explicit_uniform_location : enable\n";
+// What 400 takes for names though they became keywords, or is sure to refuse: compute shaders, storage blocks, arrays
+// of arrays, packing of halves.
+constexpr const char* kNotOfSmallest[] = {"buffer",    "shared",      "coherent",   "restrict", "readonly",
+                                          "writeonly", "atomic_uint", "local_size", "][",       "Half2x16"};
+
+}  // namespace
 
 void start_glslang() {
   struct Process {
@@ -21,12 +36,18 @@ EShMessages set_opengl_environment(glslang::TShader& shader, EShLanguage stage) 
   return static_cast<EShMessages>(EShMsgSpvRules | EShMsgDebugInfo);
 }
 
-int glslang_version(const ShaderSource& source) {
-  if (source.es) return std::max(source.version, 310);
-  constexpr int kSmallerTable = 440;
+std::vector<int> glslang_versions(const ShaderSource& source) {
+  if (source.es) return {std::max(source.version, 310)};
   const auto mentions = [&](const char* text) { return source.text.find(text) != std::string::npos; };
-  return source.version > kSmallerTable && !mentions("__VERSION__") && !mentions("GL_") ? kSmallerTable
-                                                                                        : source.version;
+  const bool can_tell = mentions("__VERSION__") || mentions("GL_");
+  std::vector<int> versions;
+  if (source.version >= kHasTheExtensions && !can_tell &&
+      std::none_of(std::begin(kNotOfSmallest), std::end(kNotOfSmallest), mentions))
+    versions.push_back(kSmallestTable);
+  if (source.version > kSmallTable && !can_tell) versions.push_back(kSmallTable);
+  versions.push_back(source.version);
+  if (source.version < kLatest) versions.push_back(kLatest);
+  return versions;
 }
 
 std::string glslang_text(const ShaderSource& source, int version) {
@@ -35,6 +56,7 @@ std::string glslang_text(const ShaderSource& source, int version) {
   const std::size_t end = has_version ? text.find('\n') : 0;
   const std::size_t after = !has_version ? 0 : end == std::string::npos ? text.size() : end + 1;
   return "#version " + std::to_string(version) + (source.es ? " es\n" : "\n") +
+         (!source.es && version < source.version ? kExtensionsOfSmallest : "") +
          "#extension GL_GOOGLE_cpp_style_line_directive : require\n" + text.substr(after);
 }
 

@@ -6,6 +6,7 @@
 #include <glslang/Public/ShaderLang.h>
 
 #include <string>
+#include <vector>
 
 #include "cpu_shaders/shader_source.h"
 
@@ -18,12 +19,14 @@ void start_glslang();
 // which glslang makes no SPIR-V of.
 EShMessages set_opengl_environment(glslang::TShader& shader, EShLanguage stage);
 
-// The version to try first. ES: 310 at least. Desktop: the author's, but 440 for 450 and 460 unless the shader can tell
-// the difference (it speaks of __VERSION__ or of a macro or extension GL_...): what both accept means the same in both,
-// and the table of 440 is read in less than half the time. What 440 refuses is to be read again as the author's.
-int glslang_version(const ShaderSource& source);
+// The versions to read the shader as, one after another until one accepts it; the author's is one of them, and its
+// complaint the one to report. ES: 310 at least. Desktop: first smaller ones that mean the same, unless the shader can
+// tell the difference (it speaks of __VERSION__ or of a macro or extension GL_...), since glslang reads their tables in
+// less time; after the author's 450, for what the author's lacks.
+std::vector<int> glslang_versions(const ShaderSource& source);
 
-// The whole text under a #version line of its own, with #line "file" allowed.
+// The whole text under a #version line of its own, with #line "file" allowed, and what 450 has by extension where the
+// version is less than the author's.
 std::string glslang_text(const ShaderSource& source, int version);
 
 // The first error of glslang's log as "file:line: message".

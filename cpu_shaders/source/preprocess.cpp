@@ -13,7 +13,7 @@ std::string preprocess(const ShaderSource& source) {
   static std::mutex mutex;
   const std::lock_guard<std::mutex> lock(mutex);
   start_glslang();
-  const int version = source.es ? source.version : glslang_version(source);
+  const int version = source.es ? source.version : glslang_versions(source).front();
   const std::string text = glslang_text(source, version);
   constexpr EShLanguage kStage = EShLangFragment;  // of any version, and all the same to the preprocessor
   glslang::TShader shader(kStage);

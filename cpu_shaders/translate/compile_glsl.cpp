@@ -4,7 +4,7 @@
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
 
-#include <algorithm>
+#include <exception>
 #include <mutex>
 
 #include "base/error.h"
@@ -63,32 +63,23 @@ std::vector<std::uint32_t> compile(const ShaderSource& source, int version, bool
   return words;
 }
 
-// GLSL ES 300 has no SPIR-V: it is checked as what it says it is, then translated as ES 310. Desktop GLSL is read as
-// the version that it says it is (`sample` and `buffer` are names there, not keywords) or as what glslang_version()
-// says, or as 450 where that version lacks something that it uses: `precise`, say, which means the same in all.
+// GLSL ES 300 has no SPIR-V: it is checked as what it says it is, then translated as ES 310. Desktop GLSL older than
+// 450 is read as 450 where its version lacks something that it uses: `precise`, say, which means the same in all (but
+// `sample` and `buffer` are names there, not keywords).
 std::vector<std::uint32_t> compile_any_version(const ShaderSource& source) {
-  const int first = glslang_version(source), last = std::max(source.version, 450);
-  if (source.es) {
-    if (source.version < 300)
-      throw UserError(source.files.at(0) + ":1: GLSL ES " + std::to_string(source.version) +
-                      " is not supported: write #version 300 es");
-    if (source.version == 300) compile(source, 300, false);
-    return compile(source, first, true);
-  }
-  if (source.version < 330)
-    throw UserError(source.files.at(0) + ":1: GLSL " + std::to_string(source.version) +
-                    " is not supported: write #version 330 or later");
-  if (first == last) return compile(source, first, true);
-  try {
-    return compile(source, first, true);
-  } catch (const UserError& error) {
-    if (first < source.version) return compile(source, last, true);
+  if (source.version < (source.es ? 300 : 330))
+    throw UserError(source.files.at(0) + ":1: GLSL " + (source.es ? "ES " : "") + std::to_string(source.version) +
+                    " is not supported: write #version " + (source.es ? "300 es" : "330 or later"));
+  if (source.es && source.version == 300) compile(source, 300, false);
+  std::exception_ptr complaint;
+  for (const int version : glslang_versions(source)) {
     try {
-      return compile(source, last, true);
+      return compile(source, version, true);
     } catch (const UserError&) {
-      throw error;
+      if (!complaint || version == source.version) complaint = std::current_exception();
     }
   }
+  std::rethrow_exception(complaint);
 }
 
 }  // namespace

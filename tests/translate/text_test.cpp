@@ -1,6 +1,7 @@
 // What the generated file says: comments or #line, constants, reflection.
 #include <doctest/doctest.h>
 
+#include "base/error.h"
 #include "cpu_shaders/translate/translate.h"
 
 namespace twinshade {
@@ -41,6 +42,24 @@ TEST_CASE("whatever version a shader is read as, __VERSION__ is the author's and
   CHECK(has(of("#version 450\n" + newer).cpp, "dFdxFine"));
   CHECK(has(of(newer).cpp, "dFdxFine"));
   CHECK(has(of("#version 450\n#ifdef GL_SPIRV\n" + body + "#endif\n").cpp, "UF(450.0f)"));
+}
+
+TEST_CASE("what a version refuses is refused, whatever quicker version accepts it") {
+  const std::string uniform_location =
+      "layout(location = 1) uniform float k;\nout vec4 c;\nvoid main() { c = vec4(k); }\n";
+  const std::string name_buffer = "out vec4 c;\nvoid main() { float buffer = 1.0; c = vec4(buffer); }\n";
+  for (const char* version : {"430", "440", "450", "460"}) {
+    CHECK(has(of("#version " + std::string(version) + "\n" + uniform_location).cpp, "k"));
+    CHECK_THROWS_WITH_AS(of("#version " + std::string(version) + "\n" + name_buffer),
+                         doctest::Contains("sample.frag:3"), UserError);
+  }
+  CHECK(has(of("#version 400\n" + name_buffer).cpp, "buffer"));
+}
+
+TEST_CASE("functions on integers that only the latest version has are not those on floats") {
+  const std::string body = "flat in ivec2 a;\nout float c;\nvoid main() { c = mix(a.x, a.y, a.x < a.y) / 2; }\n";
+  CHECK(has(of("#version 450\n" + body).cpp, "/ UI(2)"));
+  CHECK(has(of(body).cpp, "/ UI(2)"));
 }
 
 TEST_CASE("float constants are the bits of the binary") {

@@ -19,6 +19,10 @@ string(REPLACE "-O3" "-O2" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
 # -O3 where pixels and rays are counted, -O1 where a build takes longer than the program ever runs.
 set(TWINSHADE_HOT "$<$<CONFIG:Release>:-O3>")
 set(TWINSHADE_COLD "$<$<CONFIG:Release>:-O1>")
+# GCC's own garbage is collected once it holds more than this (KiB): a tenth of the time, a third more memory a unit.
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  add_compile_options("SHELL:--param ggc-min-heapsize=1000000")
+endif()
 # Release keeps its checks of invariants: they do not use NDEBUG.
 
 # A quarter of the time of the default linker, and part of the same package. Not with sanitizers, whose runtimes are not tried with it.

@@ -83,7 +83,7 @@ Compiler find_compiler(const std::string& asked) {
     if (!command[0].empty()) return {command, identity_of(command)};
   }
   throw UserError(
-      fmt::format("no C++ compiler found (tried {}{}): shaders that are not built in need one; {}",
+      fmt::format("no C++ compiler found (tried {}{}): shaders, lanes and numbers that are not built in need one; {}",
                   by_environment ? "CXX=" : "", fmt::join(candidates, ", "),
                   by_environment ? "set CXX to one that is there, or unset it" : "install g++ or clang, or set CXX"));
 }

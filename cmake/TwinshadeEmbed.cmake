@@ -12,5 +12,7 @@ function(twinshade_embed out symbol root)
     DEPENDS ${paths} ${TWINSHADE_EMBED_SCRIPT}
     COMMENT "Embedding ${symbol}"
     VERBATIM)
+  # A change of what is embedded compiles this alone.
+  set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   set(${out} ${source} PARENT_SCOPE)
 endfunction()

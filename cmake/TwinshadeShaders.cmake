@@ -5,10 +5,17 @@ set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
 file(STRINGS ${CMAKE_SOURCE_DIR}/lighting/registry.def registry_lines REGEX "^(BASIS|TECHNIQUE)\\(")
 # TWINSHADE_SHADERS: name:kind of what the build translates: the technique with its coefficients from lightmaps, vertices and
 # volumes, as its domain allows, and what the host evaluates of a basis or of a sphere map. From lighting/registry.def and lighting/sphere_maps.def, the only
-# lists.
+# lists. TWINSHADE_CODE_OF_<name>: the first basis of the same file. They are evaluated alike, and differ in how light is
+# projected: the same code serves both.
 set(TWINSHADE_SHADERS "")
 foreach(line IN LISTS registry_lines)
   string(REGEX REPLACE "^(BASIS|TECHNIQUE)\\(([a-z0-9_]+),.*" "\\2" name "${line}")
+  if(line MATCHES "^BASIS\\([^,]*, ([a-z0-9_]+)\\.glsl,")
+    if(NOT DEFINED first_of_${CMAKE_MATCH_1})
+      set(first_of_${CMAKE_MATCH_1} ${name})
+    endif()
+    set(TWINSHADE_CODE_OF_${name} ${first_of_${CMAKE_MATCH_1}})
+  endif()
   if(NOT line MATCHES "^BASIS\\([^,]*,[^,]*, sphere,")
     list(APPEND TWINSHADE_SHADERS ${name}:lightmap ${name}:vertex)
   endif()

@@ -13,17 +13,18 @@ namespace {
 class ModuleEmitter {
  public:
   ModuleEmitter(const Program& program, Interface& interface, const SourceLines& lines, NameTable& names,
-                const ShaderSource& source, bool readable, Translation& translation)
+                const ShaderSource& source, const TranslateOptions& options, Translation& translation)
       : program_(program),
         module_(program.module),
         interface_(interface),
         lines_(lines),
         names_(names),
         source_(source),
+        options_(options),
         translation_(translation),
         instances_(analyse_uniformity(program)),
         types_(module_, names),
-        shared_{program, instances_, interface, lines, types_, names, readable, {}, "", {}} {}
+        shared_{program, instances_, interface, lines, types_, names, options.readable, {}, "", {}} {}
 
   void run() {
     shared_.out.indent();
@@ -36,8 +37,10 @@ class ModuleEmitter {
     interface_.reflection.no_float64_reason = shared_.no_float64_reason;
     translation_.reflection = interface_.reflection;
     const std::string types = aside([&] { types_.write_declarations(shared_.out); });
-    translation_.cpp = head() + types + tables + members + functions +
-                       reflection_text(interface_.reflection, source_, translation_.identifier);
+    translation_.cpp = head();
+    if (!options_.code_elsewhere) translation_.cpp += class_head() + types + tables + members + functions + "};\n\n";
+    translation_.cpp +=
+        reflection_text(interface_.reflection, source_, translation_.identifier, options_.code_elsewhere);
   }
 
  private:
@@ -354,7 +357,7 @@ class ModuleEmitter {
   }
 
   std::string head() const {
-    std::string text = "// " + source_.name + ": translated from " +
+    return "// " + source_.name + ": translated from " +
                        (source_.files.empty() ? source_.name : source_.files[0]) +
                        " by twinshade. docs/generated-code.md says how to read it.\n"
                        "#include \"cpu_shaders/runtime/runtime.h\"\n\n"
@@ -368,9 +371,11 @@ class ModuleEmitter {
                        "#pragma clang diagnostic ignored \"-Wself-assign-overloaded\"\n"
                        "#endif\n\n"
                        "namespace twinshade {\ninline namespace TWINSHADE_ISA_NAMESPACE {\nnamespace shader_" +
-                       translation_.identifier +
-                       " {\nnamespace {\n\n"
-                       "template <class N>\nstruct Shader : ShaderBase<N> {\n  using Base = ShaderBase<N>;\n";
+                       translation_.identifier + " {\nnamespace {\n\n";
+  }
+
+  static std::string class_head() {
+    std::string text = "template <class N>\nstruct Shader : ShaderBase<N> {\n  using Base = ShaderBase<N>;\n";
     for (const char* name : {"kept", "live", "frag_coord", "front_facing", "primitive_id", "frag_depth", "output"})
       text += std::string("  using Base::") + name + ";\n";
     return text;
@@ -382,6 +387,7 @@ class ModuleEmitter {
   const SourceLines& lines_;
   NameTable& names_;
   const ShaderSource& source_;
+  const TranslateOptions& options_;
   Translation& translation_;
   Instances instances_;
   TypeNames types_;
@@ -393,8 +399,8 @@ class ModuleEmitter {
 }  // namespace
 
 void emit_module(const Program& program, Interface& interface, const SourceLines& lines, NameTable& names,
-                 const ShaderSource& source, bool readable, Translation& translation) {
-  ModuleEmitter(program, interface, lines, names, source, readable, translation).run();
+                 const ShaderSource& source, const TranslateOptions& options, Translation& translation) {
+  ModuleEmitter(program, interface, lines, names, source, options, translation).run();
 }
 
 }  // namespace twinshade::spirv

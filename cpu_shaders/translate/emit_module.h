@@ -8,6 +8,6 @@ namespace twinshade::spirv {
 
 // Completes translation.reflection (no_float64_reason) and writes translation.cpp.
 void emit_module(const Program& program, Interface& interface, const SourceLines& lines, NameTable& names,
-                 const ShaderSource& source, bool readable, Translation& translation);
+                 const ShaderSource& source, const TranslateOptions& options, Translation& translation);
 
 }  // namespace twinshade::spirv

@@ -56,10 +56,38 @@ std::string compute_fields(const Reflection& r) {
          ", /*uses_barrier*/ " + boolean(r.uses_barrier);
 }
 
+// So that several translations can share a unit.
+std::string own_namespace(const std::string& id) { return "shader_" + id + "::"; }
+
+// A shared object has one module; linked objects leave their entries to whoever joins them.
+std::string entries_text(const Reflection& r, const std::string& id) {
+  std::string t = "#undef TWINSHADE_ENTRIES\n#undef TWINSHADE_ENTRY_COUNT\n";
+  t += "#if defined(TWINSHADE_SHARED_OBJECT)\n#define TWINSHADE_ENTRIES entries\n#define TWINSHADE_ENTRY_COUNT "
+       "entry_count\n#else\n";
+  t += "#define TWINSHADE_ENTRIES TWINSHADE_JOIN(twinshade_entries_" + id + "_, TWINSHADE_ISA)\n";
+  t += "#define TWINSHADE_ENTRY_COUNT TWINSHADE_JOIN(twinshade_entry_count_" + id + "_, TWINSHADE_ISA)\n#endif\n";
+  t += "extern const ShaderEntry TWINSHADE_ENTRIES[];\nextern const std::uint32_t TWINSHADE_ENTRY_COUNT;\n";
+  t += "const ShaderEntry TWINSHADE_ENTRIES[] = {\n";
+  const auto entry = [&](int bit, const std::string& number, const std::string& policy) {
+    t += "#if TWINSHADE_NUMBERS & " + std::to_string(bit) + "\n    {Isa(TWINSHADE_ISA_NUMBER), Number::" + number +
+         ", shade_all<" + own_namespace(id) + "Shader, " + policy + ">},\n#endif\n";
+  };
+  const std::string scalar = r.uses_derivatives ? "Quad" : "Scalar";
+  entry(1, "lanes4", "Lanes<4>");
+  entry(2, "lanes8", "Lanes<8>");
+  entry(4, "lanes16", "Lanes<16>");
+  entry(8, "scalar", scalar + "32");
+  if (r.no_float64_reason.empty()) entry(16, "float64", scalar + "64");
+  t += "    {Isa(TWINSHADE_ISA_NUMBER), Number::scalar, nullptr}};  // the end, not counted\n";
+  t += "const std::uint32_t TWINSHADE_ENTRY_COUNT = sizeof TWINSHADE_ENTRIES / sizeof *TWINSHADE_ENTRIES - 1;\n\n";
+  return t;
+}
+
 }  // namespace
 
-std::string reflection_text(const Reflection& r, const ShaderSource& source, const std::string& id) {
-  std::string t = "};\n\n";
+std::string reflection_text(const Reflection& r, const ShaderSource& source, const std::string& id,
+                            bool code_elsewhere) {
+  std::string t;
   const auto table = [&](const std::string& type, const std::string& name, const std::vector<std::string>& rows) {
     if (rows.empty()) return;
     t += "constexpr " + type + " " + name + "[] = {\n";
@@ -88,35 +116,14 @@ std::string reflection_text(const Reflection& r, const ShaderSource& source, con
   }
   for (const auto& x : r.resources)
     resources.push_back(quoted(x.name) + ", " + kind_name(x.kind) + ", " + std::to_string(x.slot) + ", " +
-                        std::to_string(x.minimum_size) + ", " + boolean(x.read_only) + ", " +
-                        "LayerOrder(" + std::to_string(int(x.layer_order)) + ")" + ", " + std::to_string(x.beside));
+                        std::to_string(x.minimum_size) + ", " + boolean(x.read_only) + ", " + "LayerOrder(" +
+                        std::to_string(int(x.layer_order)) + ")" + ", " + std::to_string(x.beside));
   table("ShaderUniform", "kUniforms", uniforms);
   table("ShaderResource", "kResources", resources);
 
-  const std::string scalar = r.uses_derivatives ? "Quad" : "Scalar";
-  // Its own namespace, so that several translations can share a unit.
-  const std::string own = "shader_" + id + "::";
+  const std::string own = own_namespace(id);
   t += "}  // namespace\n}  // namespace shader_" + id + "\n}  // namespace TWINSHADE_ISA_NAMESPACE\n\n";
-  // A shared object has one module; linked objects leave their entries to whoever joins them.
-  t += "#undef TWINSHADE_ENTRIES\n#undef TWINSHADE_ENTRY_COUNT\n";
-  t += "#if defined(TWINSHADE_SHARED_OBJECT)\n#define TWINSHADE_ENTRIES entries\n#define TWINSHADE_ENTRY_COUNT "
-       "entry_count\n#else\n";
-  t += "#define TWINSHADE_ENTRIES TWINSHADE_JOIN(twinshade_entries_" + id + "_, TWINSHADE_ISA)\n";
-  t += "#define TWINSHADE_ENTRY_COUNT TWINSHADE_JOIN(twinshade_entry_count_" + id + "_, TWINSHADE_ISA)\n#endif\n";
-  t += "extern const ShaderEntry TWINSHADE_ENTRIES[];\nextern const std::uint32_t TWINSHADE_ENTRY_COUNT;\n";
-  t += "const ShaderEntry TWINSHADE_ENTRIES[] = {\n";
-  const auto entry = [&](int bit, const std::string& number, const std::string& policy) {
-    t += "#if TWINSHADE_NUMBERS & " + std::to_string(bit) + "\n    {Isa(TWINSHADE_ISA_NUMBER), Number::" + number +
-         ", shade_all<" + own + "Shader, " + policy + ">},\n#endif\n";
-  };
-  entry(1, "lanes4", "Lanes<4>");
-  entry(2, "lanes8", "Lanes<8>");
-  entry(4, "lanes16", "Lanes<16>");
-  entry(8, "scalar", scalar + "32");
-  if (r.no_float64_reason.empty()) entry(16, "float64", scalar + "64");
-  t += "    {Isa(TWINSHADE_ISA_NUMBER), Number::scalar, nullptr}};  // the end, not counted\n";
-  t += "const std::uint32_t TWINSHADE_ENTRY_COUNT = sizeof TWINSHADE_ENTRIES / sizeof *TWINSHADE_ENTRIES - 1;\n\n";
-
+  if (!code_elsewhere) t += entries_text(r, id);
   const auto array = [&](bool empty, const char* name) {
     return empty ? std::string("nullptr, 0") : own + name + ", sizeof " + own + name + " / sizeof *" + own + name;
   };
@@ -136,10 +143,14 @@ std::string reflection_text(const Reflection& r, const ShaderSource& source, con
          entries + compute_fields(r) + "};\n";
     return m;
   };
-  t += "#if defined(TWINSHADE_SHARED_OBJECT)\n";
-  t += "extern \"C\" __attribute__((visibility(\"default\"))) const ShaderModule twinshade_shader_module;\n";
-  t += "const ShaderModule twinshade_shader_module = {\n" + module("TWINSHADE_ENTRIES, TWINSHADE_ENTRY_COUNT");
-  t += "#elif TWINSHADE_ISA_NUMBER == 0\n";
+  if (code_elsewhere) {
+    t += "#if TWINSHADE_ISA_NUMBER == 0\n";
+  } else {
+    t += "#if defined(TWINSHADE_SHARED_OBJECT)\n";
+    t += "extern \"C\" __attribute__((visibility(\"default\"))) const ShaderModule twinshade_shader_module;\n";
+    t += "const ShaderModule twinshade_shader_module = {\n" + module("TWINSHADE_ENTRIES, TWINSHADE_ENTRY_COUNT");
+    t += "#elif TWINSHADE_ISA_NUMBER == 0\n";
+  }
   t += "extern const ShaderModule twinshade_module_" + id + ";\n";
   t += "const ShaderModule twinshade_module_" + id + " = {\n" + module("nullptr, 0");
   t += "#endif\n\n}  // namespace twinshade\n";

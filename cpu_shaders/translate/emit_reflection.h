@@ -5,7 +5,8 @@
 
 namespace twinshade::spirv {
 
-// From the closing brace of the shader's class on. identifier: for symbols.
-std::string reflection_text(const Reflection& reflection, const ShaderSource& source, const std::string& identifier);
+// What follows the shader's class. identifier: for symbols. code_elsewhere: there is none, and so no entries.
+std::string reflection_text(const Reflection& reflection, const ShaderSource& source, const std::string& identifier,
+                            bool code_elsewhere);
 
 }  // namespace twinshade::spirv

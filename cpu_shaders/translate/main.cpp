@@ -1,8 +1,9 @@
 // The build's translator: one shader becomes one C++ file.
 //   twinshade-translate --list FILE FOLDER
-//     FILE has a line NAME KIND IDENTIFIER for each shader, which becomes FOLDER/IDENTIFIER.cpp. NAME: of
+//     FILE has a line NAME KIND IDENTIFIER CODE_OF for each shader, which becomes FOLDER/IDENTIFIER.cpp. NAME: of
 //     lighting/registry.def or lighting/sphere_maps.def. KIND: lightmap, vertex or volume (the technique's fragment
 //     shader with that coefficient storage), basis_values, basis_irradiance, map_taps or map_direction (for the host).
+//     CODE_OF: NAME, or another one of that kind whose GLSL is the same but for the name; its entries then serve both.
 //   twinshade-translate FILE.frag [-I FOLDER]... [--name IDENTIFIER] [--readable] -o OUT.cpp
 //                       [--header FOLDER --isas ISA,...] [--depfile OUT.d]
 //     --header: IDENTIFIER.h and IDENTIFIER_calls.cpp, typed C++ (cpu_shaders/package/cpp_header.h). --depfile: the
@@ -95,13 +96,26 @@ Job job_of(const std::vector<std::string>& arguments) {
   return job;
 }
 
+// That `name` says the same as `other`, the name aside.
+void require_same_code(const ShaderSource& source, const std::string& name, const std::string& other,
+                       const std::string& kind) {
+  std::string text = source.text;
+  for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + other.size()))
+    text.replace(at, name.size(), other);
+  if (text != builtin_source(other, kind).text)
+    throw UserError("the GLSL of " + name + " (" + kind + ") is not that of " + other +
+                    ", whose code should serve both");
+}
+
 // The built-in shaders of a list.
 std::vector<Job> jobs_of(const std::string& list, const std::string& folder) {
   std::vector<Job> jobs;
   std::istringstream lines(read_file(list));
-  for (std::string name, kind, identifier; lines >> name >> kind >> identifier;) {
+  for (std::string name, kind, identifier, code_of; lines >> name >> kind >> identifier >> code_of;) {
     Job& job = jobs.emplace_back();
     job.source = builtin_source(name, kind);
+    job.options.code_elsewhere = code_of != name;
+    if (job.options.code_elsewhere) require_same_code(job.source, name, code_of, kind);
     job.output = (std::filesystem::path(folder) / (identifier + ".cpp")).string();
     job.options.identifier = std::move(identifier);
   }

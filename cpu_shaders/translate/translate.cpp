@@ -18,7 +18,6 @@ void plant(spirv::Module& module, const std::pair<std::uint32_t, std::uint32_t>&
 
 }  // namespace
 
-
 std::string identifier_from(const std::string& name) {
   std::string id;
   for (char c : name) id += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
@@ -36,7 +35,7 @@ Translation translate(const ShaderSource& source, const TranslateOptions& option
   refuse_large_variables(program, lines);
   spirv::NameTable names;
   spirv::Interface interface = spirv::describe_interface(program, lines, names);
-  spirv::emit_module(program, interface, lines, names, source, options.readable, translation);
+  spirv::emit_module(program, interface, lines, names, source, options, translation);
   return translation;
 }
 

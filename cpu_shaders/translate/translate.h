@@ -16,6 +16,8 @@ struct TranslateOptions {
   // Readable: each GLSL line as a comment above its C++. Otherwise #line directives, so that debuggers step through the
   // GLSL.
   bool readable = false;
+  // Another shader's code serves this one, which differs in names alone: reflection and module, no class, no entries.
+  bool code_elsewhere = false;
   // For tests that must notice a wrong translation: every SPIR-V instruction `first` is translated as if it were
   // `second`.
   std::optional<std::pair<std::uint32_t, std::uint32_t>> planted_bug;

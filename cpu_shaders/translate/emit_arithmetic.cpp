@@ -150,10 +150,16 @@ bool FunctionEmitter::arithmetic(const Instruction& i) {
     return true;
   }
   if (const Comparison c = comparison_of(i.op); c.text != nullptr) {
-    if (module_.type(i.type).kind == Kind::vector)
-      define(i, call_text(i, std::string("glsl::") + c.function, i.operands));
-    else
+    if (module_.type(i.type).kind == Kind::vector) {
+      Expression left = operand_as(i.operands[0], signedness(i));
+      const Expression right = operand_as(i.operands[1], signedness(i));
+      left.text = std::string("glsl::") + c.function + "(" + left.text + ", " + right.text + ")";
+      left.precedence = 1;
+      left.reads.insert(right.reads.begin(), right.reads.end());
+      define(i, left);
+    } else {
       define(i, binary(i, c.text, c.text[0] == '=' || c.text[0] == '!' ? 10 : 9));
+    }
     return true;
   }
   if (const char* function = function_of(i.op); function != nullptr) {

@@ -43,6 +43,21 @@ std::string FunctionEmitter::text(Id id, int most) {
   return e.precedence > most ? "(" + e.text + ")" : e.text;
 }
 
+namespace {
+// Compilers walk expressions recursively, and give up within long ones.
+bool is_unwieldy(const std::string& text) {
+  constexpr std::size_t kShort = 400, kLongest = 800;
+  constexpr int kDeepest = 100;
+  if (text.size() < kShort) return false;
+  int depth = 0, deepest = 0;
+  for (const char c : text) {
+    if (c == '(') deepest = std::max(deepest, ++depth);
+    if (c == ')') --depth;
+  }
+  return text.size() > kLongest || deepest > kDeepest;
+}
+}  // namespace
+
 void FunctionEmitter::define(const Instruction& i, Expression e) {
   const auto found = info_.uses.find(i.result);
   const int uses = found == info_.uses.end() ? 0 : found->second;
@@ -61,7 +76,7 @@ void FunctionEmitter::define(const Instruction& i, Expression e) {
     return;
   }
   Pending pending{i.result, std::move(e)};
-  if (uses > 1) {
+  if (uses > 1 || is_unwieldy(pending.expression.text)) {
     position(i.file, i.line);
     materialise(pending);
   } else {

@@ -29,10 +29,21 @@ TWINSHADE_INLINE auto moved(const TextureView& view, const vec<F, 3>& p, const O
   return vec<X, 3>(xy.x, xy.y, X(p.z));
 }
 
+// The two texels along one axis. At an edge that clamps both are the texel there, where linear_taps gives its neighbour
+// for the second: it has no weight.
+template <Lane F>
+TWINSHADE_INLINE auto gathered_taps(const F& s, std::int32_t size, Wrap wrap) {
+  using E = typename F::element;
+  auto taps = linear_taps(s, size, wrap);
+  if (wrap == Wrap::clamp_to_edge)
+    taps.second = select(s * F(static_cast<E>(size)) < F(E(0.5)), taps.first, taps.second);
+  return taps;
+}
+
 template <Lane F, Lane I>
 TWINSHADE_INLINE auto gather(const TextureView& view, const F& s, const F& t, const I& layer, Wrap wrap, int k) {
-  const auto x = linear_taps(s, view.width, wrap);
-  const auto y = linear_taps(t, view.height, wrap);
+  const auto x = gathered_taps(s, view.width, wrap);
+  const auto y = gathered_taps(t, view.height, wrap);
   const auto texel = [&](const auto& column, const auto& row)
                          TWINSHADE_LAMBDA { return fetch<typename F::element>(view, column, row, layer)[k]; };
   return vec<F, 4>(texel(x.first, y.second), texel(x.second, y.second), texel(x.second, y.first),

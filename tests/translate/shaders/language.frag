@@ -23,6 +23,8 @@ layout(location = 2) out uvec4 wide;
 layout(location = 3) out vec4 defaults;
 layout(location = 4) out vec4 gathered;
 layout(location = 5) out vec4 forms;
+layout(location = 6) out vec4 edges;
+layout(location = 7) out vec4 truths;
 
 void main() {
   int a = surface[0].a, b = surface[1].b;
@@ -49,6 +51,8 @@ void main() {
 
   vec2 middle = vec2(2.0, 1.0) / vec2(4.0, 2.0);  // of a map of 4 x 2: between texels
   gathered = textureGather(map, middle, 1) + 1000.0 * textureGatherOffset(map, middle, ivec2(-1, 0));
+  truths = vec4(bvec2(ivec2(a, b & 1)), bvec2(uvec2(a & 2, b)));
+  edges = textureGather(map, vec2(0.0), 1) + 1000.0 * textureGather(map, vec2(1.0), 1);
   vec2 first = vec2(0.5) / vec2(4.0, 2.0);
   forms = vec4(textureOffset(map, first, ivec2(2, 1)).r, textureProj(map, vec3(first * 4.0, 4.0)).r,
                texture(nested[1][which], first).r, float(textureQueryLevels(map)) + textureGrad(map, first, first, first).g);

@@ -36,33 +36,40 @@ std::vector<SourceLine> scan_lines(std::string_view text) {
     line.number = number;
     std::string code;  // the line without its comments
     bool in_line_comment = false;
+    const auto comment = [&line](const char* more) {
+      line.text += more;
+      line.comments += more;
+    };
     for (; at < text.size(); ++at) {
       const char c = text[at];
       const char next = at + 1 < text.size() ? text[at + 1] : '\0';
       if (c == '\\' && next == '\n') {
-        line.text += "\\\n";
+        comment("\\\n");
         ++at, ++number;
         continue;
       }
-      if (c == '\n') break;
+      if (c == '\n') {
+        // A comment is a space: a directive goes on where one ends that begins within it.
+        if (!in_block_comment || trimmed(code).substr(0, 1) != "#") break;
+        comment("\n");
+        ++number;
+        continue;
+      }
       line.text += c;
-      if (in_block_comment) {
-        if (c == '*' && next == '/') {
-          line.text += next;
-          ++at;
-          in_block_comment = false;
-          code += ' ';
-        }
-      } else if (!in_line_comment) {
-        if (c == '/' && next == '*') {
-          line.text += next;
-          ++at;
-          in_block_comment = true;
-        } else if (c == '/' && next == '/') {
-          in_line_comment = true;
-        } else {
-          code += c;
-        }
+      const bool opens = !in_block_comment && !in_line_comment && c == '/' && next == '*';
+      const bool closes = in_block_comment && c == '*' && next == '/';
+      in_line_comment = in_line_comment || (!in_block_comment && c == '/' && next == '/');
+      if (!in_block_comment && !in_line_comment && !opens) {
+        code += c;
+        continue;
+      }
+      line.comments += c;
+      if (opens || closes) {
+        line.text += next;
+        line.comments += next;
+        ++at;
+        in_block_comment = opens;
+        if (closes) code += ' ';
       }
     }
     ++at, ++number;

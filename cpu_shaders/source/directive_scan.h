@@ -9,11 +9,11 @@
 namespace twinshade {
 
 struct SourceLine {
-  int number = 0;  // of its first physical line, from 1
-  std::string
-      text;  // as written; contains "\\\n" where a backslash continues it
+  int number = 0;         // of its first physical line, from 1
+  std::string text;       // as written; contains "\\\n" where a backslash continues it
   std::string directive;  // "include", "if" ...; empty where the line is none
   std::string arguments;  // after the directive's name, comments removed, trimmed
+  std::string comments;   // the text without its code
 };
 
 std::vector<SourceLine> scan_lines(std::string_view text);

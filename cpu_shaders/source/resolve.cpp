@@ -1,7 +1,8 @@
 // Resolves #include and leaves #line behind, so that every later message can name the author's file and line.
 //
 // #version moves to the first line. #extension lines outside conditionals move up behind it: they must precede all
-// code, and a file that needs one may be included after some.
+// code, and a file that needs one may be included after some. An #include within #if counts where the preprocessor
+// reads it.
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -13,6 +14,8 @@
 #include "cpu_shaders/shader_source.h"
 #include "cpu_shaders/source/builtin_shaders.h"
 #include "cpu_shaders/source/directive_scan.h"
+#include "cpu_shaders/source/find_word.h"
+#include "cpu_shaders/source/preprocess.h"
 
 namespace twinshade {
 namespace {
@@ -35,8 +38,14 @@ constexpr std::string_view kBuiltinFolder = "builtin:";
 
 std::string unix_lines(std::string text) {
   if (text.compare(0, 3, "\xef\xbb\xbf") == 0) text.erase(0, 3);
-  text.erase(std::remove(text.begin(), text.end(), '\r'), text.end());
-  return text;
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '\r')
+      result += text[i];
+    else if (i + 1 == text.size() || text[i + 1] != '\n')
+      result += '\n';
+  }
+  return result;
 }
 
 File builtin_file(const std::string& name, std::string_view text) {
@@ -82,12 +91,13 @@ class Resolver {
     const bool main = identities_.empty();
     identities_.push_back(file.identity);
     files_.push_back(file.shown);
-    int conditional_depth = 0;
+    const int outer_depth = conditional_depth_;
+    const std::string index = std::to_string(files_.size() - 1);
     line_directive(1, file.shown);
     for (const SourceLine& line : scan_lines(file.text)) {
       const std::string where = file.shown + ":" + std::to_string(line.number) + ": ";
-      if (line.directive == "if" || line.directive == "ifdef" || line.directive == "ifndef") ++conditional_depth;
-      if (line.directive == "endif") --conditional_depth;
+      if (line.directive == "if" || line.directive == "ifdef" || line.directive == "ifndef") ++conditional_depth_;
+      if (line.directive == "endif") --conditional_depth_;
       if (line.directive == "include") {
         include(file, line, where);
       } else if (line.directive == "version") {
@@ -95,13 +105,12 @@ class Resolver {
         blank(line);
       } else if (line.directive == "extension" && replaced_extension(line.arguments)) {
         blank(line);
-      } else if (line.directive == "extension" && conditional_depth == 0) {
+      } else if (line.directive == "extension" && conditional_depth_ == outer_depth) {
         prologue_ +=
             "#line " + std::to_string(line.number) + " " + quoted(file.shown) + "\n#extension " + line.arguments + "\n";
         blank(line);
       } else {
-        body_ += line.text;
-        body_ += '\n';
+        body_ += with_file_index(line.text, index) + '\n';
       }
     }
   }
@@ -118,6 +127,18 @@ class Resolver {
   }
 
  private:
+  // GLSL's __FILE__ is a number, glslang's the name that #line gives: the number is written out.
+  static std::string with_file_index(const std::string& text, const std::string& index) {
+    constexpr std::string_view word = "__FILE__";
+    std::string result;
+    std::size_t from = 0;
+    for (std::size_t at = find_word(text, word); at != text.npos; at = find_word(text, word, from)) {
+      result += text.substr(from, at - from) + index;
+      from = at + word.size();
+    }
+    return result + text.substr(from);
+  }
+
   // The directives that ask for what has been done here already.
   static bool replaced_extension(const std::string& arguments) {
     for (const char* name :
@@ -136,8 +157,26 @@ class Resolver {
     body_ += "#line " + std::to_string(next_line) + " " + quoted(shown) + "\n";
   }
 
+  // A comment that begins or ends there has its other half elsewhere.
   void blank(const SourceLine& line) {
-    body_.append(static_cast<std::size_t>(std::count(line.text.begin(), line.text.end(), '\n')) + 1, '\n');
+    if (line.comments.find("*/") != std::string::npos || line.comments.find("/*") != std::string::npos)
+      body_ += line.comments + '\n';
+    else
+      body_.append(static_cast<std::size_t>(std::count(line.text.begin(), line.text.end(), '\n')) + 1, '\n');
+  }
+
+  // Whether the preprocessor reads what stands here; it has not been asked for what stands in no conditional.
+  bool is_read() {
+    if (conditional_depth_ <= 0) return true;
+    constexpr int kMostQuestions = 1000;
+    if (++questions_ > kMostQuestions)
+      throw UserError(files_.back() + ": more than " + std::to_string(kMostQuestions) +
+                      " #include lines within #if: put them outside");
+    constexpr const char* kMark = "twinshade_reads_this";
+    ShaderSource so_far = finish("");
+    so_far.text += std::string("\n") + kMark + "\n";
+    for (int i = 0; i < conditional_depth_; ++i) so_far.text += "#endif\n";
+    return preprocess(so_far).find(kMark) != std::string::npos;
   }
 
   void version(const SourceLine& line, const std::string& where, bool main) {
@@ -145,18 +184,24 @@ class Resolver {
     std::size_t digits = 0;
     while (digits < line.arguments.size() && std::isdigit(static_cast<unsigned char>(line.arguments[digits]))) ++digits;
     if (digits != 3) throw UserError(where + "#version wants a number such as 450, got \"" + line.arguments + "\"");
+    const std::size_t after = line.arguments.find_first_not_of(" \t", digits);
+    const std::string profile = after == std::string::npos ? "" : line.arguments.substr(after);
+    if (!profile.empty() && profile != "core" && profile != "compatibility" && profile != "es")
+      throw UserError(where + "#version " + line.arguments + ": the profile is core, compatibility or es");
     version_ = std::stoi(line.arguments.substr(0, digits));
-    es_ = version_ == 100 || line.arguments.find("es", digits) != std::string::npos;
+    es_ = version_ == 100 || profile == "es";
     version_line_ = "#version " + line.arguments + "\n";
   }
 
   void include(const File& from, const SourceLine& line, const std::string& where) {
+    if (!is_read()) return blank(line);
     const std::string& a = line.arguments;
     const bool quotes = a.size() > 2 && a.front() == '"' && a.back() == '"';
     const bool angles = a.size() > 2 && a.front() == '<' && a.back() == '>';
     if (!quotes && !angles) throw UserError(where + "#include wants \"file\", got " + (a.empty() ? "nothing" : a));
     const std::string wanted = a.substr(1, a.size() - 2);
     File file = find(from, wanted, where);
+    if (line.comments.find("*/") != std::string::npos) body_ += line.comments + '\n';
     unite_with_builtin(file);
     if (std::find(identities_.begin(), identities_.end(), file.identity) == identities_.end()) {
       if (++depth_ > kMostIncludes)
@@ -196,7 +241,7 @@ class Resolver {
   const std::vector<std::string>& include_folders_;
   std::vector<std::string> identities_, files_;
   std::string version_line_, prologue_, body_;
-  int version_ = 450, depth_ = 0;
+  int version_ = 450, depth_ = 0, conditional_depth_ = 0, questions_ = 0;
   bool es_ = false;
 };
 

@@ -93,6 +93,60 @@ TEST_CASE("lines stay right after continued lines and comments") {
   CHECK(reported_position(source.text, "marker") == "\"t.frag\":7");
 }
 
+TEST_CASE("a comment that begins or ends on the line of a directive keeps its other half") {
+  const ShaderSource version =
+      resolve_shader("t", "/* Licence\n text */ #version 330 /* the\n version */\nfloat marker;\n", "t.frag");
+  CHECK(version.version == 330);
+  CHECK(reported_position(version.text, "marker") == "\"t.frag\":4");
+  CHECK(count_of(version.text, "/*") == 2);
+  CHECK(count_of(version.text, "*/") == 2);
+  const ShaderSource included = resolve_shader(
+      "t", "/* helpers\n*/ #include \"exact/attributes.glsl\" /* from\n there */\nfloat marker;\n", "t.frag");
+  CHECK(reported_position(included.text, "marker") == "\"t.frag\":4");
+  CHECK(included.text.find("helpers\n*/") < included.text.find("exact_barycentrics"));
+  const ShaderSource split = resolve_shader(
+      "t", "#include /* a\n b */ \"exact/attributes.glsl\"\n#extension GL_X : enable /* c\n d */\nfloat marker;\n",
+      "t.frag");
+  CHECK(split.files.size() == 2);
+  CHECK(reported_position(split.text, "marker") == "\"t.frag\":5");
+}
+
+TEST_CASE("an #include that the preprocessor does not read is none") {
+  Folder folder;
+  folder.write("leaf.glsl", "float leaf;\n");
+  const std::string main = folder.write("main.frag",
+                                        "#define TWO 2\n"
+                                        "#if TWO > 3\n#include \"leaf.glsl\"\n#include \"missing.glsl\"\n#else\n"
+                                        "#ifdef TWO\n#include \"leaf.glsl\"\n#endif\n#endif\nfloat marker;\n");
+  const ShaderSource source = load_shader(main);
+  CHECK(source.files.size() == 2);
+  CHECK(count_of(source.text, "float leaf") == 1);
+  CHECK(reported_position(source.text, "marker") == '"' + main + "\":10");
+  CHECK(error_of([] {
+          resolve_shader("t", "#if 1\n#include \"lost.glsl\"\n#endif\n", "t.frag");
+        }).rfind("t.frag:2: cannot include", 0) == 0);
+  std::string many;
+  for (int i = 0; i < 1100; ++i) many += "#if 0\n#include \"lost.glsl\"\n#endif\n";
+  CHECK(error_of([&] { resolve_shader("t", many, "t.frag"); }).find("more than 1000") != std::string::npos);
+}
+
+TEST_CASE("__FILE__ is the number of the file, as drivers have it") {
+  Folder folder;
+  folder.write("leaf.glsl", "int leaf() { return __FILE__; }\n");
+  const std::string main = folder.write("main.frag", "#include \"leaf.glsl\"\nint own = __FILE__, not__FILE__;\n");
+  const std::string text = load_shader(main).text;
+  CHECK(text.find("return 1;") != std::string::npos);
+  CHECK(text.find("own = 0, not__FILE__;") != std::string::npos);
+}
+
+TEST_CASE("lines may end as on old Macs, profiles are those of GLSL") {
+  CHECK(reported_position(resolve_shader("t", "float a;\rfloat marker;\r\nfloat b;", "t.frag").text, "marker") ==
+        "\"t.frag\":2");
+  CHECK(error_of([] {
+          resolve_shader("t", "\n#version 450 cor\n", "t.frag");
+        }).rfind("t.frag:2: #version 450 cor", 0) == 0);
+}
+
 TEST_CASE("#version comes first, #extension before all code") {
   const ShaderSource source = resolve_shader("t",
                                              "// a comment\n#version 310 es\nfloat a;\n"

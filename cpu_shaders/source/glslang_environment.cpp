@@ -4,6 +4,8 @@
 #include <regex>
 #include <sstream>
 
+#include "cpu_shaders/source/find_word.h"
+
 namespace twinshade {
 namespace {
 
@@ -18,6 +20,10 @@ constexpr const char* kExtensionsOfSmallest =
 // of arrays, packing of halves.
 constexpr const char* kNotOfSmallest[] = {"buffer",    "shared",      "coherent",   "restrict", "readonly",
                                           "writeonly", "atomic_uint", "local_size", "][",       "Half2x16"};
+// What core profiles have had no more since 420.
+constexpr const char* kGoneSince420[] = {"varying", "attribute", "gl_FragColor", "gl_FragData"};
+constexpr const char* kOldTextureFunctions[] = {"texture1D",   "texture2D", "texture3D",
+                                                "textureCube", "shadow1D",  "shadow2D"};
 
 }  // namespace
 
@@ -42,7 +48,10 @@ std::vector<int> glslang_versions(const ShaderSource& source) {
   const bool can_tell = mentions("__VERSION__") || mentions("GL_");
   std::vector<int> versions;
   if (source.version >= kHasTheExtensions && !can_tell &&
-      std::none_of(std::begin(kNotOfSmallest), std::end(kNotOfSmallest), mentions))
+      std::none_of(std::begin(kNotOfSmallest), std::end(kNotOfSmallest), mentions) &&
+      std::none_of(std::begin(kOldTextureFunctions), std::end(kOldTextureFunctions), mentions) &&
+      std::none_of(std::begin(kGoneSince420), std::end(kGoneSince420),
+                   [&](const char* word) { return find_word(source.text, word) != std::string::npos; }))
     versions.push_back(kSmallestTable);
   if (source.version > kSmallTable && !can_tell) versions.push_back(kSmallTable);
   versions.push_back(source.version);

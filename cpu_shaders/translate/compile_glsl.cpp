@@ -4,8 +4,11 @@
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
 
+#include <algorithm>
 #include <exception>
 #include <mutex>
+#include <regex>
+#include <string_view>
 
 #include "base/error.h"
 #include "cpu_shaders/source/glslang_environment.h"
@@ -13,6 +16,7 @@
 #include "cpu_shaders/translate/find_recursion.h"
 #include "cpu_shaders/translate/glslang_trial.h"
 #include "cpu_shaders/translate/limits.h"
+#include "cpu_shaders/translate/source_lines.h"
 
 namespace twinshade {
 namespace {
@@ -24,6 +28,59 @@ std::string text_as_version(const ShaderSource& source, int version) {
   ShaderSource expanded = source;
   expanded.text = preprocess(source);
   return glslang_text(expanded, version);
+}
+
+constexpr std::string_view kOfEs300 = "_of_es_300";
+
+// Names that ES 310 takes for functions and keywords of its own are free in ES 300: there they get an ending.
+std::string with_free_names(const std::string& text) {
+  constexpr const char* kNames[] = {"bitCount",
+                                    "bitfieldExtract",
+                                    "bitfieldInsert",
+                                    "bitfieldReverse",
+                                    "findLSB",
+                                    "findMSB",
+                                    "frexp",
+                                    "ldexp",
+                                    "fma",
+                                    "imulExtended",
+                                    "umulExtended",
+                                    "uaddCarry",
+                                    "usubBorrow",
+                                    "packUnorm4x8",
+                                    "packSnorm4x8",
+                                    "unpackUnorm4x8",
+                                    "unpackSnorm4x8",
+                                    "textureGather",
+                                    "textureGatherOffset",
+                                    "buffer"};
+  std::string defines;
+  for (const std::string name : kNames)
+    if (text.find(name) != std::string::npos) defines += "#define " + name + " " + name + std::string(kOfEs300) + "\n";
+  const std::size_t version_end = text.find('\n') + 1;
+  return text.substr(0, version_end) + defines + text.substr(version_end);
+}
+
+// The shader's interface keeps its names.
+void drop_ending(std::vector<std::uint32_t>& words) {
+  constexpr std::size_t kHeader = 5;
+  for (std::size_t at = kHeader; at < words.size() && words[at] >> 16 != 0; at += words[at] >> 16) {
+    const std::uint32_t op = words[at] & 0xffff;
+    if (op != spv::OpName && op != spv::OpMemberName) continue;
+    char* name = reinterpret_cast<char*>(&words[at + (op == spv::OpName ? 2 : 3)]);
+    const std::string_view text(name);
+    if (text.size() > kOfEs300.size() && text.substr(text.size() - kOfEs300.size()) == kOfEs300)
+      std::fill(name + text.size() - kOfEs300.size(), name + text.size(), '\0');
+  }
+}
+
+// glslang's log of linking names the function on its next line, and no place.
+std::string link_error(const ShaderSource& source, const std::string& log) {
+  static const std::regex without_body(R"(No function definition \(body\) found:\s*(\w+)\()");
+  std::smatch match;
+  if (!std::regex_search(log, match, without_body)) return first_glslang_error(source, log.c_str());
+  const std::string name = match[1];
+  return SourceLines(source).mention({name}).text() + ": " + name + "() is declared and called, but has no body";
 }
 
 std::vector<std::uint32_t> compile(const ShaderSource& source, int version, bool make_spirv) {
@@ -42,7 +99,7 @@ std::vector<std::uint32_t> compile(const ShaderSource& source, int version, bool
   refuse_recursion(*shader.getIntermediate(), source);
   glslang::TProgram program;
   program.addShader(&shader);
-  if (!program.link(messages)) throw UserError(first_glslang_error(source, program.getInfoLog()));
+  if (!program.link(messages)) throw UserError(link_error(source, program.getInfoLog()));
   if (!make_spirv) return {};
   if (!program.mapIO()) throw UserError(first_glslang_error(source, program.getInfoLog()));
   const glslang::TIntermediate* tree = program.getIntermediate(stage);
@@ -67,10 +124,21 @@ std::vector<std::uint32_t> compile(const ShaderSource& source, int version, bool
 // 450 is read as 450 where its version lacks something that it uses: `precise`, say, which means the same in all (but
 // `sample` and `buffer` are names there, not keywords).
 std::vector<std::uint32_t> compile_any_version(const ShaderSource& source) {
+  const int latest = source.es ? 320 : 460;
+  if (source.version > latest)
+    throw UserError(source.files.at(0) + ":1: GLSL " + (source.es ? "ES " : "") + std::to_string(source.version) +
+                    " is not known: write #version " + (source.es ? "320 es" : "460") + " or earlier");
   if (source.version < (source.es ? 300 : 330))
     throw UserError(source.files.at(0) + ":1: GLSL " + (source.es ? "ES " : "") + std::to_string(source.version) +
                     " is not supported: write #version " + (source.es ? "300 es" : "330 or later"));
-  if (source.es && source.version == 300) compile(source, 300, false);
+  if (source.es && source.version == 300) {
+    compile(source, 300, false);
+    ShaderSource with_names = source;
+    with_names.text = with_free_names(source.text);
+    std::vector<std::uint32_t> words = compile(with_names, 310, true);
+    drop_ending(words);
+    return words;
+  }
   std::exception_ptr complaint;
   for (const int version : glslang_versions(source)) {
     try {

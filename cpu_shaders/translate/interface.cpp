@@ -192,6 +192,11 @@ class Describer {
       add(v, Role::frag_depth, name);
       return;
     }
+    if (name.rfind("gl_", 0) == 0) {  // the driver alone knows what becomes of them
+      if (mentioned_.count(v.id))
+        refuse(name, "the output " + name + " of old GLSL", "declare an output: out vec4 color;");
+      return;
+    }
     if (d.get(spv::DecorationIndex) != 0 || d.get(spv::DecorationComponent) != 0)
       refuse(name, "layout(index) or layout(component) of output " + name, "give each output a location of its own");
     ReflectedVariable r;

@@ -1,8 +1,9 @@
 #include "cpu_shaders/translate/source_lines.h"
 
-#include <cctype>
 #include <charconv>
 #include <sstream>
+
+#include "cpu_shaders/source/find_word.h"
 
 namespace twinshade {
 namespace {
@@ -13,19 +14,10 @@ std::string trimmed(const std::string& text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
+bool has_word(const std::string& text, const std::string& word) { return find_word(text, word) != text.npos; }
 
-bool has_word(const std::string& text, const std::string& word) {
-  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
-    const bool starts = at == 0 || !is_word(text[at - 1]);
-    const bool ends = at + word.size() == text.size() || !is_word(text[at + word.size()]);
-    if (starts && ends) return true;
-  }
-  return false;
-}
-
-// `#line 12 "file"`, the name optional: `number` becomes that of the line before the next. An author's other forms (macros, other
-// spacing) are glslang's to judge.
+// `#line 12 "file"`, the name optional: `number` becomes that of the line before the next. An author's other forms
+// (macros, other spacing) are glslang's to judge.
 bool read_line_directive(const std::string& text, int& number, std::string& file) {
   if (text.rfind("#line ", 0) != 0) return false;
   int given = 0;

@@ -52,6 +52,8 @@ TEST_CASE("declarations that cannot be bound are refused by name") {
   check_refused(kHead + "layout(constant_id = 1) const int n = 2;\nvoid main() { color = vec4(n); }\n", 3,
                 "constant_id");
   check_refused(kHead + "void main() { color = vec4(gl_PointCoord, 0, 1); }\n", 3, "gl_PointCoord");
+  check_refused("#version 330\nin vec4 a;\nvoid main() { gl_FragColor = a; }\n", 3, "gl_FragColor");
+  check_refused("#version 330\nin vec4 a;\nvoid main() { gl_FragData[1] = a; }\n", 3, "gl_FragData");
 }
 
 TEST_CASE("instructions that mean nothing to us are refused where they stand") {
@@ -71,6 +73,9 @@ TEST_CASE("glslang's messages come with the author's file and line") {
   check_refused(kHead + "void main() { color = nothing; }\n", 3, "undeclared");
   check_refused("#version 120\nvoid main() {}\n", 1, "GLSL 120");
   check_refused("#version 100\nvoid main() {}\n", 1, "GLSL ES 100");
+  check_refused("#version 999\nvoid main() {}\n", 1, "GLSL 999");
+  check_refused(kHead + "float half_of(float x);\nvoid main() { color = vec4(half_of(1.0)); }\n", 3,
+                "half_of() is declared and called, but has no body");
   CHECK(refusal(kHead) != "accepted");
   const std::string included =
       refusal("#version 450\n#include \"exact/dot.glsl\"\nout vec4 color;\nvoid main() { color = vec4(1) }\n");
@@ -113,6 +118,10 @@ TEST_CASE("older and embedded dialects are accepted") {
   CHECK(refusal("#version 330\nin vec3 n; out vec4 c; void main() { c = vec4(n, 1.0); }\n") == "accepted");
   CHECK(refusal("#version 300 es\nprecision highp float; in vec3 n; out vec4 c; void main() { c = vec4(n, 1.0); }\n") ==
         "accepted");
+  // What ES 310 has as functions and keywords is free for ES 300's own.
+  CHECK(refusal("#version 300 es\nprecision highp float; in vec4 buffer; out vec4 c; float fma(float a, float b) { "
+                "return a - b; } uniform B { float bitCount; }; void main() { c = buffer * fma(bitCount, "
+                "2.0); }\n") == "accepted");
   CHECK(refusal("#version 310 es\nprecision mediump float; in vec3 n; layout(location = 0) out vec4 c; void main() { c "
                 "= vec4(n, 1.0); }\n") == "accepted");
   CHECK(refusal("in vec3 n; out vec4 c; void main() { c = vec4(n, 1.0); }\n") == "accepted");

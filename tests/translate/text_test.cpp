@@ -1,6 +1,8 @@
 // What the generated file says: comments or #line, constants, reflection.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "cpu_shaders/translate/translate.h"
 
@@ -54,6 +56,35 @@ TEST_CASE("what a version refuses is refused, whatever quicker version accepts i
                          doctest::Contains("sample.frag:3"), UserError);
   }
   CHECK(has(of("#version 400\n" + name_buffer).cpp, "buffer"));
+  // What core profiles lost with 420.
+  const std::string varying = "varying vec2 uv;\nout vec4 c;\nvoid main() { c = uv.xyxy; }\n";
+  const std::string old_function =
+      "uniform sampler2D map;\nout vec4 c;\nvoid main() { c = texture2D(map, vec2(0.0)); }\n";
+  for (const char* version : {"430", "450"}) {
+    CHECK_THROWS_WITH_AS(of("#version " + std::string(version) + "\n" + varying), doctest::Contains("sample.frag:2"),
+                         UserError);
+    CHECK_THROWS_WITH_AS(of("#version " + std::string(version) + "\n" + old_function),
+                         doctest::Contains("sample.frag:4"), UserError);
+  }
+}
+
+TEST_CASE("expressions that are long or deep are written in parts, which compilers can take") {
+  std::string sum = "a.x", nested = "a.x";
+  for (int i = 0; i < 3000; ++i) sum += " + a.y";
+  for (int i = 0; i < 90; ++i) nested = "(a.y * (1.0 - " + nested + "))";
+  for (const std::string& value : {sum, nested}) {
+    const std::string cpp = of("in vec2 a;\nout float c;\nvoid main() { c = " + value + "; }\n", false).cpp;
+    int depth = 0, deepest = 0;
+    std::size_t line = 0, longest = 0;
+    for (const char c : cpp) {
+      if (c == '(') deepest = std::max(deepest, ++depth);
+      if (c == ')') --depth;
+      line = c == '\n' ? 0 : line + 1;
+      longest = std::max(longest, line);
+    }
+    CHECK(deepest < 200);
+    CHECK(longest < 5000);
+  }
 }
 
 TEST_CASE("functions on integers that only the latest version has are not those on floats") {

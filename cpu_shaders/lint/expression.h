@@ -49,6 +49,7 @@ struct Expression {
   bool precise = false;         // assign and declaration: the target is `precise`; lvalues: their variable is
   std::vector<bool> written;    // call: arguments that are out or inout
   std::optional<std::size_t> const_token;  // declaration: its `const`
+  bool is_uniform = false;                 // declaration
 };
 
 // Whether `is` holds for the expression or some part of it.

@@ -87,9 +87,11 @@ Variable* Parser::find_variable(const std::string& name) {
   return nullptr;
 }
 
-bool Parser::is_type(const Token& token) const {
-  return token.kind == Token::Kind::name &&
-         (keyword_type(token.text).base != Base::unknown || structures_.count(token.text) != 0);
+bool Parser::is_type(const Token& token) {
+  if (token.kind != Token::Kind::name) return false;
+  if (keyword_type(token.text).base != Base::unknown) return true;
+  const Variable* named = find_variable(token.text);
+  return named != nullptr && named->is_structure;
 }
 
 void Parser::run() {
@@ -97,7 +99,7 @@ void Parser::run() {
 }
 
 // A type name starts a declaration unless it is a constructor: vec3(...), float[2](...), Light(...).
-bool Parser::at_declaration() const {
+bool Parser::at_declaration() {
   if (is_qualifier(peek()) || is("struct") || is("precision")) return true;
   if (!is_type(peek())) return false;
   std::size_t ahead = 1;
@@ -137,6 +139,9 @@ GlslType Parser::structure() {
   GlslType type = scalar_type(Base::structure);
   type.name = is("{") ? "struct at " + std::to_string(at_) : take().text;
   structures_[type.name];
+  Variable name;
+  name.is_structure = true;
+  declare(type.name, name);
   members(type, false);
   return type;
 }
@@ -170,6 +175,7 @@ Parser::Declarator Parser::qualifiers_and_type() {
       declarator.constant = true;
       declarator.const_token = token;
     }
+    if (qualifier == "uniform") declarator.is_uniform = true;
     if (qualifier == "out" || qualifier == "inout") declarator.is_output = true;
     if ((qualifier == "layout" || qualifier == "subroutine") && is("(")) skip_balanced();
   }
@@ -262,6 +268,7 @@ void Parser::declarators(Declarator declarator) {
     array_suffix(variable.type);
     ExpressionPtr declaration = make(Expression::Kind::declaration, name);
     declaration->const_token = declarator.const_token;
+    declaration->is_uniform = declarator.is_uniform;
     declaration->type = variable.type;
     declaration->precise = declarator.precise;
     if (accept("=")) {

@@ -13,6 +13,7 @@
 namespace twinshade::lint_detail {
 
 struct Variable {
+  bool is_structure = false;  // no variable: the name of a structure
   GlslType type;
   bool precise = false;
   bool constant = false;                    // const, initialised with a constant
@@ -66,7 +67,8 @@ class Parser {
  private:
   struct Declarator {
     GlslType type;
-    bool precise = false, constant = false, is_input = true, is_output = false, has_qualifier = false;
+    bool precise = false, constant = false, is_input = true, is_output = false, is_uniform = false,
+         has_qualifier = false;
     std::optional<std::size_t> const_token;
   };
 
@@ -81,7 +83,7 @@ class Parser {
 
   // declarations
   void external_declaration();
-  bool at_declaration() const;
+  bool at_declaration();
   Declarator qualifiers_and_type();
   GlslType type_specifier();
   GlslType structure();
@@ -118,7 +120,7 @@ class Parser {
   // names
   void declare(const std::string& name, const Variable& variable) { scopes_.back()[name] = variable; }
   Variable* find_variable(const std::string& name);
-  bool is_type(const Token& token) const;
+  bool is_type(const Token& token);  // a variable may hide a structure
 
   const TokenList& list_;
   const std::vector<Token>& tokens_;

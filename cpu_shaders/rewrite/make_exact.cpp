@@ -45,13 +45,69 @@ std::string literal_text(float value) {
   return text;
 }
 
+// The constants that must stay constants, by name: those that array sizes, case labels, other constants than floats
+// and initial values of uniforms are made of.
+class NeededConstants : public Listener {
+ public:
+  explicit NeededConstants(const TokenList& list) { Parser(list, *this).run(); }
+
+  void expression(const Expression& e, Role role) override {
+    if (role == Role::constant) return need(e);
+    if (e.kind != Kind::declaration) return;
+    if (needs_constant(e)) need(e);
+    if (e.const_token) made_of_[e.text].push_back(names(e));
+  }
+  bool has(const std::string& name) const { return names_.count(name) != 0; }
+
+  static bool is_constant(const Expression& e) {
+    return e.const_token && !e.operands.empty() && e.operands[0]->constant;
+  }
+  // Whether a declaration's value is asked to be a constant expression whatever reads it.
+  static bool needs_constant(const Expression& e) {
+    return e.is_uniform || (is_constant(e) && !e.type.is_floating() && e.type.base != Base::structure);
+  }
+
+ private:
+  static std::set<std::string> names(const Expression& e) {
+    std::set<std::string> all;
+    if (e.kind == Kind::variable) all.insert(e.text);
+    for (const ExpressionPtr& operand : e.operands) all.merge(names(*operand));
+    return all;
+  }
+  void need(const Expression& e) {
+    for (const std::string& name : names(e)) need(name);
+  }
+  void need(const std::string& name) {
+    if (!names_.insert(name).second) return;
+    if (const auto found = made_of_.find(name); found != made_of_.end())
+      for (const std::set<std::string>& parts : found->second)
+        for (const std::string& part : parts) need(part);
+  }
+
+  std::set<std::string> names_;
+  std::map<std::string, std::vector<std::set<std::string>>> made_of_;
+};
+
 class MakeExact : public Listener {
  public:
   MakeExact(const TokenList& list, ExactScope scope)
-      : edits_(list), functions_(scope == ExactScope::written_out), scope_(scope) {}
+      : edits_(list), functions_(scope == ExactScope::written_out), list_(list), needed_(list), scope_(scope) {}
+
+  // The result is GLSL 450, which has keywords that are names in older versions.
+  void rename_keywords(const ShaderSource& source) {
+    struct Keyword {
+      const char* name;
+      int version, es_version;
+    };
+    for (std::size_t i = 0; i < list_.tokens.size(); ++i)
+      for (const Keyword& word : {Keyword{"sample", 400, 0}, Keyword{"patch", 400, 0}, Keyword{"subroutine", 400, 0},
+                                  Keyword{"buffer", 430, 310}})
+        if (list_.tokens[i].text == word.name && source.version < (source.es ? word.es_version : word.version))
+          edits_.replace(i, std::string(word.name) + "_name");
+  }
 
   void expression(const Expression& e, Role role) override {
-    if (role == Role::constant) return;
+    if (role == Role::constant || must_stay_constant(e)) return;
     rewrite(e, {false, role == Role::condition || role == Role::selector || role == Role::result});
   }
 
@@ -64,6 +120,11 @@ class MakeExact : public Listener {
     bool compared = false;  // operand of a comparison: a zero there does no harm
     bool used = true;       // something takes the value
   };
+
+  bool must_stay_constant(const Expression& e) const {
+    return e.kind == Kind::declaration && !e.operands.empty() &&
+           (NeededConstants::needs_constant(e) || (NeededConstants::is_constant(e) && needed_.has(e.text)));
+  }
 
   bool in_scope(const Expression& e) const {
     switch (scope_) {
@@ -274,11 +335,25 @@ class MakeExact : public Listener {
     if (!e.const_token) return varies;
     std::set<std::string>& names = constants_[*e.const_token];
     names.insert(e.text);
-    if (varies) edits_.replace(*e.const_token, "");
+    if (varies) {
+      edits_.replace(*e.const_token, "");
+      write_size(e);
+    }
     if (varies || made_variable_.count(*names.begin()) != 0) made_variable_.insert(names.begin(), names.end());
     return varies;
   }
 
+  // const float k[] = float[](1.0, 2.0): a variable of global scope wants its size written.
+  void write_size(const Expression& e) {
+    const Expression& value = *e.operands[0];
+    if (e.type.array_dimensions != 1 || value.kind != Kind::construct || value.operands.empty()) return;
+    for (std::size_t i = *e.const_token; i + 1 < value.outer_first; ++i)
+      if (list_.tokens[i].text == "[" && list_.tokens[i + 1].text == "]" && (i == e.at + 1 || i < e.at))
+        edits_.replace(i + 1, std::to_string(value.operands.size()) + "]");
+  }
+
+  const TokenList& list_;
+  const NeededConstants needed_;
   const ExactScope scope_;
   int in_argument_ = 0;
   std::set<std::string> made_variable_;
@@ -293,6 +368,7 @@ ExactShader make_exact(const ShaderSource& source, ExactScope scope) {
   compile_glsl(source);  // the parser relies on valid GLSL
   const TokenList tokens = tokenize(source);
   MakeExact rewrite(tokens, scope);
+  rewrite.rename_keywords(source);
   Parser(tokens, rewrite).run();
 
   ExactShader result;

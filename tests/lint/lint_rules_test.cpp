@@ -221,6 +221,9 @@ TEST_CASE("blocks, structures, arrays and overloads are followed") {
   CHECK(rules_of(lint(shader_of("Outer o; float x = o.inner.v[1].y * 2.0;", before))) == "precise");
   CHECK(rules_of(lint(shader_of("int i = pick(k) * 2;", before))) == "");
   CHECK(rules_of(lint(shader_of("float x = pick(a.x) * 2.0;", before))) == "precise");
+  // A variable hides the structure of its name, within its block.
+  CHECK(rules_of(lint(shader_of("{ Inner i; float Inner = a.x; Inner = -Inner; } Inner j; float x = j.v[0].x * 2.0;",
+                                before))) == "precise");
 }
 
 TEST_CASE("the parser keeps its place through everything that GLSL allows") {

@@ -67,6 +67,15 @@ TEST_CASE("assignments that compute write their target once") {
 
 TEST_CASE("constants are computed where both machines compute alike, and literals mean one float") {
   CHECK(body_of("const float x = 0.1 * 3.0; float y = x;") == "floatx=exact_multiply(0.100000001,3.0);floaty=x;");
+  // Constants stay where GLSL asks for one.
+  CHECK(
+      left_of("float t[int(W)]; t[N - 1] = a.x * W; color.x = t[0]; switch (k) { case N: color.y = float(N); }",
+              "const float V = 2.0 * 2.0; const float W = V * 2.0; const int N = int(W / 2.0); uniform float u = W;\n")
+          .find("sample.frag:8: *: arithmetic between constants") == 0);
+  CHECK(left_of("color.x = E[k & 1] + F[0] + G[1];",
+                "const float E[] = float[](0.1 * 3.0, 2.0), G[] = { 0.1 * 2.0, 1.0 };"
+                "const float[] F = float[](0.1 * 3.0);") == "");
+  CHECK(body_of("const ivec2 p = ivec2(a.xy * 2.0);") == "ivec2p=ivec2(exact_multiply(a.xy,2.0));");
   CHECK(body_of("const float x = 0.1; const float y = x;") == "constfloatx=0.100000001;constfloaty=x;");
   CHECK(body_of("const float x = 1.0, y = 1.0 / 3.0; const float z = x;") ==
         "floatx=1.0,y=exact_divide(1.0,3.0);floatz=x;");
@@ -165,6 +174,12 @@ TEST_CASE("GLSL ES and older versions are rewritten as GLSL 4.50") {
   CHECK(exact.left.empty());
   CHECK(!exact.source.es);
   CHECK(exact.source.text.find("#line 2 \"es.frag\"") != std::string::npos);
+  const ShaderSource old =
+      resolve_shader("old",
+                     "#version 330\nin vec4 a; out vec4 c; uniform B { float s; };\n"
+                     "float buffer = 2.0; void main() { float sample = s; c = a * sample * buffer; }\n",
+                     "old.frag");
+  CHECK(make_exact(old).left.empty());
 }
 
 TEST_CASE("a shader that includes exact functions itself gets each once") {

@@ -17,18 +17,18 @@ using Kind = Expression::Kind;
 constexpr const char* kPrelude = R"(flat in int probe_target;
 out uvec4 probe_value;
 out uvec4 probe_place;
-int probe_count;
-void probe_bits(int statement, uvec4 bits, uint is_float, uint components) {
-  if (probe_count == probe_target) {
+int probe_twin_count;
+void probe_twin_bits(int statement, uvec4 bits, uint is_float, uint components) {
+  if (probe_twin_count == probe_target) {
     probe_value = bits;
     probe_place = uvec4(uint(statement + 1), 0u, is_float, components);
   }
-  ++probe_count;
-  probe_place.y = uint(probe_count);
+  ++probe_twin_count;
+  probe_place.y = uint(probe_twin_count);
 }
 )";
 
-// Overloads of probe, which tells, and of probe_condition, which also gives back what it was given.
+// Overloads of probe_twin, which tells, and of probe_twin_condition, which also gives back what it was given.
 std::string probe_functions() {
   std::string text = kPrelude;
   struct Row {
@@ -41,18 +41,18 @@ std::string probe_functions() {
       const std::string type = n == 1 ? row.scalar : row.prefix + std::to_string(n);
       const std::string padding = n == 1 ? ", 0, 0, 0" : n == 2 ? ", 0, 0" : n == 3 ? ", 0" : "";
       const std::string four = row.is_float ? "floatBitsToUint(vec4(v" + padding + "))" : "uvec4(v" + padding + ")";
-      text += "void probe(int s, " + type + " v) { probe_bits(s, " + four + ", " + (row.is_float ? "1u" : "0u") + ", " +
-              std::to_string(n) + "u); }\n";
+      text += "void probe_twin(int s, " + type + " v) { probe_twin_bits(s, " + four + ", " +
+              (row.is_float ? "1u" : "0u") + ", " + std::to_string(n) + "u); }\n";
     }
   for (int columns = 2; columns <= 4; ++columns)
     for (int rows = 2; rows <= 4; ++rows) {
       const std::string type = "mat" + std::to_string(columns) + (rows == columns ? "" : "x" + std::to_string(rows));
-      text += "void probe(int s, " + type + " m) { ";
-      for (int c = 0; c < columns; ++c) text += "probe(s, m[" + std::to_string(c) + "]); ";
+      text += "void probe_twin(int s, " + type + " m) { ";
+      for (int c = 0; c < columns; ++c) text += "probe_twin(s, m[" + std::to_string(c) + "]); ";
       text += "}\n";
     }
   for (const char* type : {"bool", "int", "uint"})
-    text += std::string(type) + " probe_condition(int s, " + type + " v) { probe(s, v); return v; }\n";
+    text += std::string(type) + " probe_twin_condition(int s, " + type + " v) { probe_twin(s, v); return v; }\n";
   return text;
 }
 
@@ -80,7 +80,7 @@ class Probe : public Listener {
     inside_ = name;
     result_ = result;
     if (name != "main") return;
-    std::string start = " probe_count = 0; probe_value = uvec4(0u); probe_place = uvec4(0u);";
+    std::string start = " probe_twin_count = 0; probe_value = uvec4(0u); probe_place = uvec4(0u);";
     for (const Target& target : globals_) start += tell(target.first, target.last, {target});
     edits_.behind(body_first, start);
   }
@@ -114,7 +114,8 @@ class Probe : public Listener {
     targets.swap(stored_);
     const std::string after = tell(first, last, targets);
     if (after.empty()) return;
-    if (targets.front().declared) {
+    // A call within a declaration may come first; what is declared must outlive the statement all the same.
+    if (std::any_of(targets.begin(), targets.end(), [](const Target& target) { return target.declared; })) {
       edits_.behind(last - 1, after);
     } else {
       edits_.before(first, "{ ");
@@ -197,7 +198,7 @@ class Probe : public Listener {
     return !only_ || *only_ + 1 == statements_.size();
   }
 
-  // Calls of probe for a value of any type.
+  // Calls of probe_twin for a value of any type.
   std::string value(const std::string& statement, const std::string& text, const GlslType& type, int depth) const {
     if (type.array_dimensions > 0) {
       const std::string i = "probe_" + std::to_string(depth);
@@ -214,7 +215,7 @@ class Probe : public Listener {
       return all;
     }
     if (!type.is_integer() && type.base != Base::float32 && type.base != Base::boolean) return "";
-    return " probe(" + statement + ", " + text + ");";
+    return " probe_twin(" + statement + ", " + text + ");";
   }
 
   void condition(const Expression& e) {
@@ -222,7 +223,7 @@ class Probe : public Listener {
       return;
     const std::string statement = std::to_string(statements_.size());
     if (!number(e.outer_first, e.outer_last, "condition")) return;
-    edits_.before(e.outer_first, "probe_condition(" + statement + ", ");
+    edits_.before(e.outer_first, "probe_twin_condition(" + statement + ", ");
     edits_.behind(e.outer_last - 1, ")");
   }
 
@@ -242,7 +243,7 @@ class Probe : public Listener {
     if (returned.kind == Kind::variable || returned.constant || !touches_floats(returned) || result_text().empty())
       return "";
     returned_value_ = edits_.text(returned.outer_first, returned.outer_last);
-    return "probe_result";
+    return "probe_twin_result";
   }
 
   const TokenList& list_;

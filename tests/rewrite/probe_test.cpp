@@ -86,6 +86,34 @@ TEST_CASE("probes go into shaders that were made exact, and into GLSL ES") {
   CHECK_NOTHROW(compile_glsl(add_probes(es).source));
 }
 
+TEST_CASE("what a statement declares outlives the probes of what its calls wrote") {
+  const ShaderSource source =
+      resolve_shader("t",
+                     "in vec4 a; out vec4 c;\n"
+                     "float split(float x, out float whole) { whole = floor(x); return sin(x); }\n"
+                     "void main() { float whole;\n float part = split(a.x, whole);\n"
+                     " c = vec4(part, whole, 0.0, 1.0); }\n",
+                     "t.frag");
+  const ProbedShader shader = add_probes(source);
+  CHECK_NOTHROW(compile_glsl(shader.source));
+  CHECK(names(shader, 4, "whole, part"));
+}
+
+TEST_CASE("a shader's own probe and ES without a precision yet are no obstacle") {
+  const ShaderSource own = resolve_shader(
+      "t", "in vec4 a; out vec4 c; void probe(int i, float x) {} void main() { probe(1, a.x); c = a * 2.0; }\n",
+      "t.frag");
+  CHECK_NOTHROW(compile_glsl(add_probes(own).source));
+  const ShaderSource es = resolve_shader("t",
+                                         "#version 300 es\nprecision highp float;\nin vec4 a; out vec4 c;\n"
+                                         "void main() { c = sin(a) + gl_FragCoord.x; }\n",
+                                         "t.frag");
+  CHECK_NOTHROW(compile_glsl(frag_coord_as_input(es)));
+  const ShaderSource redeclared = resolve_shader(
+      "t", "in vec4 a; in vec4 gl_FragCoord; out vec4 c;\nvoid main() { c = a * gl_FragCoord.x; }\n", "t.frag");
+  CHECK_NOTHROW(compile_glsl(frag_coord_as_input(redeclared)));
+}
+
 TEST_CASE("gl_FragCoord becomes an input") {
   const ShaderSource moved = frag_coord_as_input(everything());
   CHECK_NOTHROW(compile_glsl(moved));

@@ -55,7 +55,6 @@ struct CheckVerb {
     options.generate.seed = common.seed;
     options.timing = !no_timing;
     evaluator_options.written_out = options.make_exact;
-    evaluator_options.optimisation = options.timing ? 2 : 1;
     const int code = once(output, shaders);
     return watch ? watch_forever(output) : code;
   }

@@ -34,7 +34,7 @@ std::vector<Values> empty_outputs(const Reflection& reflection, std::size_t rows
 const char* backend_name(Backend backend) { return kNames[int(backend)]; }
 
 struct Evaluator::State {
-  explicit State(const EvaluatorOptions& o) : options(o), shaders(o.optimisation) {}
+  explicit State(const EvaluatorOptions& o) : options(o) {}
 
   void run_cpu(const ShaderSource& shader, const EvaluationTarget& target, const BoundRows& group,
                EvaluatedRows& result) {

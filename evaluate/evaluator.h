@@ -35,7 +35,6 @@ struct EvaluationTarget {
 };
 
 struct EvaluatorOptions {
-  int optimisation = 1;            // of the C++ compiler, 0 to 3
   double time_limit_seconds = 60;  // of one run on OpenGL
   bool host_fma = true;            // false: llvmpipe without fused multiply-add
   bool written_out = false;        // gpu: as GlEnvironment::written_out

@@ -14,8 +14,6 @@ namespace twinshade {
 
 class PreparedShaders {
  public:
-  explicit PreparedShaders(int optimisation) : optimisation_(optimisation) {}
-
   void prepare(std::span<const ShaderSource> shaders, std::span<const EvaluationTarget> targets,
                const Evaluator::Progress& progress);
   // UserError where it cannot be translated.
@@ -38,7 +36,6 @@ class PreparedShaders {
   void compile(const std::vector<Shader*>& shaders, Isa isa, std::uint32_t numbers,
                const Evaluator::Progress& progress);
 
-  const int optimisation_;
   std::map<std::string, Shader> shaders_;  // by source_hash
 };
 

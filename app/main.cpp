@@ -44,6 +44,10 @@ int run(int argc, char** argv) {
   const std::vector<Verb> verbs{add_list(app),    add_bake(app),       add_render(app),
                                 add_compare(app), add_translate(app),  add_check(app),
                                 add_bench(app),   add_experiment(app), add_eval(app)};
+  // A list is one word, with commas, or several options: what follows it is the verb's (check --on cpu,egl my.frag).
+  for (const Verb& verb : verbs)
+    for (CLI::Option* option : verb.command->get_options())
+      if (option->nonpositional()) option->allow_extra_args(false);
   try {
     require_verb(argc, argv, verbs);
     app.parse(argc, argv);

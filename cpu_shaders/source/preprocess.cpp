@@ -6,12 +6,15 @@
 
 #include "base/error.h"
 #include "cpu_shaders/source/glslang_environment.h"
+#include "cpu_shaders/source/glslang_trial.h"
 
 namespace twinshade {
 
-std::string preprocess(const ShaderSource& source) {
-  static std::mutex mutex;
-  const std::lock_guard<std::mutex> lock(mutex);
+namespace {
+
+std::mutex mutex;
+
+std::string preprocess_locked(const ShaderSource& source) {
   start_glslang();
   const int version = source.es ? source.version : glslang_versions(source).front();
   const std::string text = glslang_text(source, version);
@@ -30,6 +33,19 @@ std::string preprocess(const ShaderSource& source) {
                          &result, no_includes))
     throw UserError(first_glslang_error(source, shader.getInfoLog()));
   return result;
+}
+
+}  // namespace
+
+std::string preprocess(const ShaderSource& source) {
+  const std::lock_guard<std::mutex> lock(mutex);
+  return preprocess_locked(source);
+}
+
+std::string preprocess_untried(const ShaderSource& source) {
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (looks_hostile(source)) try_in_child(source, [&] { preprocess_locked(source); });
+  return preprocess_locked(source);
 }
 
 }  // namespace twinshade

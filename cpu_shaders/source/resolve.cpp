@@ -176,7 +176,7 @@ class Resolver {
     ShaderSource so_far = finish("");
     so_far.text += std::string("\n") + kMark + "\n";
     for (int i = 0; i < conditional_depth_; ++i) so_far.text += "#endif\n";
-    return preprocess(so_far).find(kMark) != std::string::npos;
+    return preprocess_untried(so_far).find(kMark) != std::string::npos;
   }
 
   void version(const SourceLine& line, const std::string& where, bool main) {

@@ -14,7 +14,7 @@
 #include "cpu_shaders/source/glslang_environment.h"
 #include "cpu_shaders/source/preprocess.h"
 #include "cpu_shaders/translate/find_recursion.h"
-#include "cpu_shaders/translate/glslang_trial.h"
+#include "cpu_shaders/source/glslang_trial.h"
 #include "cpu_shaders/translate/limits.h"
 #include "cpu_shaders/translate/source_lines.h"
 

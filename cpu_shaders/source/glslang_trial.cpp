@@ -1,4 +1,4 @@
-#include "cpu_shaders/translate/glslang_trial.h"
+#include "cpu_shaders/source/glslang_trial.h"
 
 #include <fcntl.h>
 #include <malloc.h>

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <future>
 #include <mutex>
 #include <span>
 
@@ -78,6 +79,14 @@ PreparedRuntime prepare_runtime(const std::string& runtime, const Compiler& comp
   std::error_code code;
   fs::create_directories(folder, code);
   if (!fs::exists(prepared.header, code)) write_file(prepared.header, "#include \"cpu_shaders/runtime/runtime.h\"\n");
+  // Side by side: the first shader of all waits for both.
+  std::future<void> math = std::async(std::launch::async, [&] {
+    if (is_sealed(prepared.portable_math)) return;
+    write_file_with(prepared.portable_math, [&](const std::string& temporary) {
+      compile_part(compiler, flags, {"-c", runtime + "/base/portable_math.cpp"}, temporary);
+      seal(temporary);
+    });
+  });
   // clang++ makes it in a second and saves half of each shader's; g++ takes five times what it saves.
   const bool is_clang = compiler.identity.find("clang") != std::string::npos;
   if (const std::string precompiled = prepared.header + ".gch"; is_clang && !matches_hash_file(precompiled)) {
@@ -86,12 +95,7 @@ PreparedRuntime prepare_runtime(const std::string& runtime, const Compiler& comp
       write_file(precompiled + ".sha256", sha256_hex(read_file(temporary)));
     });
   }
-  if (!is_sealed(prepared.portable_math)) {
-    write_file_with(prepared.portable_math, [&](const std::string& temporary) {
-      compile_part(compiler, flags, {"-c", runtime + "/base/portable_math.cpp"}, temporary);
-      seal(temporary);
-    });
-  }
+  math.get();
   return prepared;
 }
 

@@ -48,11 +48,11 @@ struct TranslateVerb {
     TranslateOptions options;
     options.readable = true;
     const Translation translation = translate(source, options);
+    const std::vector<LintFinding> findings = lint(source);  // before anything is written: it may refuse, too
     if (file.empty())
       output.text(translation.cpp);
     else
       write_file(file, translation.cpp);
-    const std::vector<LintFinding> findings = lint(source);
     for (const LintFinding& finding : findings) output.note("outside the exact dialect: " + describe(finding));
     report_json(output, source, translation.reflection, findings);
     return 0;

@@ -37,6 +37,7 @@ InputRange range_of(const std::string& text, const std::string& where) {
     const std::size_t open = text.find('{'), close = text.rfind('}');
     if (close == std::string::npos) throw UserError(where + "the list of values lacks its }");
     std::string list = text.substr(open + 1, close - open - 1);
+    if (list.find('{') != std::string::npos) throw UserError(where + "one list serves all components: NAME {A, B}");
     for (char& c : list)
       if (c == ',') c = ' ';
     range.kind = InputRange::Kind::list;

@@ -75,8 +75,8 @@ TEST_CASE("the same seed gives the same rows, another one others") {
 }
 
 TEST_CASE("a range that cannot be meant is refused at its line") {
-  for (const std::string bad :
-       {"// @input x 1..0", "// @input x", "// @input x 0..b", "// @input x {}", "// @input x wide"}) {
+  for (const std::string bad : {"// @input x 1..0", "// @input x", "// @input x 0..b", "// @input x {}",
+                                "// @input x wide", "// @input x {1, 2} {3, 4}"}) {
     CAPTURE(bad);
     CHECK_THROWS_WITH_AS(declared_ranges(shader("\n" + bad)), doctest::Contains("s.frag:2: "), UserError);
   }

@@ -260,9 +260,7 @@ std::string Generator::truth(int depth) {
   if (c < 72) return "!" + truth(d);
   if (c < 80 && allowed(0)) return join({pick({"any(", "all("}), truths(2 + below(3), d), ")"});
   if (c < 86 && allowed(7)) return pure_call(plain(Scalar::boolean), d);
-  if (c < 92)
-    return chance(50) ? "bool(" + integer(plain(Scalar::u32), d) + " & 1u)"
-                      : "bool(" + integer(plain(Scalar::i32), d) + " & 3)";
+  if (c < 92) return "bool(" + integer(plain(Scalar::u32), d) + " & 1u)";
   if (c < 97) {  // whole vectors, structs, arrays
     const GlslType type = any_type();
     if (!holds_float(type, structures_) && !(type.is_array() && type.base == Scalar::boolean)) {
@@ -293,10 +291,7 @@ std::string Generator::truths(int rows, int depth) {
     for (int k = 1; k < rows; ++k) text += ", " + truth(d);
     return text + ")";
   }
-  if (c < 85) {
-    const Scalar base = chance(50) ? Scalar::u32 : Scalar::i32;
-    return name_of(type) + "(" + integer(plain(base, rows), d) + ")";
-  }
+  if (c < 85) return name_of(type) + "(" + integer(plain(Scalar::u32, rows), d) + ")";
   return leaf(type);
 }
 

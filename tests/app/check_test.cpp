@@ -110,6 +110,24 @@ TEST_CASE("NaN and infinities are inputs where they are asked for, and NaN is on
   CHECK(run.json()["shaders"][0]["verdict"] == "same bits");
 }
 
+TEST_CASE("a list of backends leaves the shader behind it to the verb; ES with gl_FragCoord is searched for its line") {
+  if (const std::string reason = why_missing("egl"); !reason.empty()) {
+    MESSAGE("not tested: " << reason);
+    return;
+  }
+  const Folder folder;
+  const std::string shader = folder.file("es.frag",
+                                         "#version 300 es\nprecision highp float;\nin vec4 a; out vec4 color;\n"
+                                         "void main() {\n  color = sin(a) + gl_FragCoord.x;\n}\n");
+  const Run run = run_twinshade({"check", "--on", "cpu,egl", shader, "--no-timing", "--json", "-"});
+  CAPTURE(run.err);
+  CHECK(run.code == 1);
+  const nlohmann::json result = run.json()["shaders"][0];
+  CHECK(result["verdict"] == "differs");
+  REQUIRE(result["counterexample"].is_object());
+  CHECK(result["counterexample"]["first_line"]["line"] == 5);
+}
+
 TEST_CASE("wrong shaders, ranges and files are refused with their place, the others are checked all the same") {
   const Folder folder;
   const std::string bad = folder.file("bad.frag", "out vec4 color;\nvoid main() {\n  color = nothing;\n}\n");

@@ -64,10 +64,8 @@ int run(const char* path) {
   const ShaderSource source = load_shader(path);
   const Isa isa = machine_isa();
   const Number number = isa == Isa::avx512 ? Number::lanes16 : isa == Isa::avx2 ? Number::lanes8 : Number::lanes4;
-  in_fresh_process([&] {
-    time("translated, first", [&] { translate(source); });
-    time("translated", [&] { translate(source); });
-  });
+  time("translated, first", [&] { translate(source); });
+  time("translated", [&] { translate(source); });
   const std::string cpp = translate(source).cpp;
   for (const char* compiler : {"clang++", "g++"}) {
     fmt::print("{}\n", compiler);

@@ -56,16 +56,42 @@ TEST_CASE("declarations that cannot be bound are refused by name") {
   check_refused("#version 330\nin vec4 a;\nvoid main() { gl_FragData[1] = a; }\n", 3, "gl_FragData");
 }
 
+// In all versions, whose tables of functions are made one by one; whether or not the extension is asked for.
+TEST_CASE("functions of extensions are refused with the reason, and one's own may have their names") {
+  const std::string es = "#version 310 es\nprecision highp float; out vec4 color;\n",
+                    reason = " (of extensions none is translated";
+  for (const std::string& head : {std::string("#version 330\nout vec4 color;\n"), kHead, es}) {
+    check_refused(head + "void main() { color = subgroupAdd(vec4(1)); }\n", 3, "'subgroupAdd'");
+    check_refused(head + "void main() { color = subgroupAdd(vec4(1)); }\n", 3, reason);
+    CHECK(
+        refusal(head + "float subgroupAdd(float x) { return x; }\nvoid main() { color = vec4(subgroupAdd(1.0)); }\n") ==
+        "accepted");
+  }
+  check_refused(kHead +
+                    "#extension GL_ARB_shader_ballot : require\n"
+                    "void main() { color = vec4(readFirstInvocationARB(1.0)); }\n",
+                4, "'readFirstInvocationARB' : no matching overloaded function found" + reason);
+  check_refused(kHead + "uniform sampler2D map;\nvoid main() { color = textureClampARB(map, vec2(0), 0.0); }\n", 4,
+                reason);
+  check_refused(
+      kHead +
+          "layout(std430, binding = 0) buffer B { int n; };\nvoid main() { color = vec4(atomicLoad(n, 1, 0, 0)); }\n",
+      4, "atomicLoad");
+  CHECK(refusal(kHead + "void main() { color = texture(1.0); }\n").find(reason) == std::string::npos);
+}
+
 TEST_CASE("instructions that mean nothing to us are refused where they stand") {
   const std::string maps =
       kHead + "uniform sampler2D map;\nuniform sampler2D maps[2];\nflat in int k;\nvoid main() {\n";
   check_refused(maps + "  color = vec4(textureQueryLod(map, vec2(0)), 0, 1);\n}\n", 7, "textureQueryLod");
   check_refused(maps + "  color = texture(maps[k], vec2(0));\n}\n", 7, "indexing samplers");
-  check_refused(kHead + "uniform Block { vec4 a; } blocks[2];\nflat in int k;\nvoid main() {\n  color = blocks[k].a;\n}\n",
-                6, "indexing blocks");
+  check_refused(
+      kHead + "uniform Block { vec4 a; } blocks[2];\nflat in int k;\nvoid main() {\n  color = blocks[k].a;\n}\n", 6,
+      "indexing blocks");
   check_refused(kHead + "in float x;\nvoid main() {\n  color = vec4(interpolateAtOffset(x, vec2(0.25)));\n}\n", 5,
                 "interpolateAtOffset");
-  check_refused(kHead + "in float x;\nvoid main() { double d = double(x); color = vec4(float(d * d)); }\n", 4, "other than float");
+  check_refused(kHead + "in float x;\nvoid main() { double d = double(x); color = vec4(float(d * d)); }\n", 4,
+                "other than float");
 }
 
 TEST_CASE("glslang's messages come with the author's file and line") {
@@ -97,13 +123,16 @@ TEST_CASE("recursion is refused with its calls, each at its line") {
 TEST_CASE("positions follow the author's #line and includes, to the message of each stage") {
   // #line n: the next line is n. With a number for the file, as drivers have it, the file stays.
   check_refused(kHead + "#line 40\n\nvoid main() { color = nothing; }\n", 41, "undeclared");
-  check_refused(kHead + "uniform sampler2D map;\n#line 70\nvoid main() {\n  color = vec4(textureQueryLod(map, vec2(0)), 0, 1);\n}\n",
-                71, "textureQueryLod");
+  check_refused(
+      kHead +
+          "uniform sampler2D map;\n#line 70\nvoid main() {\n  color = vec4(textureQueryLod(map, vec2(0)), 0, 1);\n}\n",
+      71, "textureQueryLod");
   check_refused(kHead + "#line 90\nuniform sampler3D volume;\nvoid main() { color = texture(volume, vec3(0)); }\n", 90,
                 "volume");
-  check_refused("#version 450\n#include \"exact/dot.glsl\"\nout vec4 color;\n#define TWICE(x) (x + \\\n  x)\n"
-                "int f(int n) { return f(n); }\nvoid main() { color = vec4(f(TWICE(1))); }\n",
-                6, "f calls itself");
+  check_refused(
+      "#version 450\n#include \"exact/dot.glsl\"\nout vec4 color;\n#define TWICE(x) (x + \\\n  x)\n"
+      "int f(int n) { return f(n); }\nvoid main() { color = vec4(f(TWICE(1))); }\n",
+      6, "f calls itself");
 }
 
 TEST_CASE("older and embedded dialects are accepted") {
@@ -111,9 +140,10 @@ TEST_CASE("older and embedded dialects are accepted") {
   CHECK(refusal("#version 330\nin vec3 n; out vec4 c; void main() { vec4 sample = vec4(n, 1.0); c = sample; }\n") ==
         "accepted");
   for (const char* version : {"330 core", "400", "410", "420", "430", "440", "450", "460"})
-    CHECK(refusal(std::string("#version ") + version +
-                  "\nin vec3 n; uniform sampler2D map; layout(std140) uniform Block { mat3 m; }; out vec4 c;\n"
-                  "void main() { float list[2] = float[](1.0, 2.0); c = vec4(m * n, list[1]) + texture(map, n.xy); }\n") ==
+    CHECK(refusal(
+              std::string("#version ") + version +
+              "\nin vec3 n; uniform sampler2D map; layout(std140) uniform Block { mat3 m; }; out vec4 c;\n"
+              "void main() { float list[2] = float[](1.0, 2.0); c = vec4(m * n, list[1]) + texture(map, n.xy); }\n") ==
           "accepted");
   CHECK(refusal("#version 330\nin vec3 n; out vec4 c; void main() { c = vec4(n, 1.0); }\n") == "accepted");
   CHECK(refusal("#version 300 es\nprecision highp float; in vec3 n; out vec4 c; void main() { c = vec4(n, 1.0); }\n") ==

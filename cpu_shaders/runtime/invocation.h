@@ -186,7 +186,7 @@ class ShaderBase {
 // The body of an entry: S<N> is run over the block in steps of N::width. Static: g++ 12 gives a function whose template
 // argument is a template of an unnamed namespace a weak symbol, and all shaders of a binary would become the first.
 template <template <class> class S, class N>
-static void shade_all(const ShaderData& data, const ShadeCall& call) {
+TWINSHADE_WHOLE static void shade_all(const ShaderData& data, const ShadeCall& call) {
   S<N> shader(data, call);
   for (std::uint32_t first = 0; first < call.count; first += N::width) {
     shader.begin(first);

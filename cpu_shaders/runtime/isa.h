@@ -29,6 +29,19 @@
 // A shader is one function made of thousands of small ones: past some size compilers stop inlining unless told.
 #define TWINSHADE_INLINE __attribute__((always_inline)) inline
 #define TWINSHADE_LAMBDA __attribute__((always_inline))  // after a lambda's parameters
+// Functions of the shader's own, and larger ones of the runtime. g++ optimises an always-inline function by itself
+// before it is inlined, with all that is inlined into it: main, what main calls and so on, each with the whole shader's
+// code. So they are plain functions to it, and all calls of TWINSHADE_WHOLE functions are inlined at once; what is to
+// stay a function is TWINSHADE_APART.
+#if defined(__clang__)
+#define TWINSHADE_FUNCTION TWINSHADE_INLINE
+#define TWINSHADE_WHOLE
+#define TWINSHADE_APART
+#else
+#define TWINSHADE_FUNCTION inline
+#define TWINSHADE_WHOLE __attribute__((flatten))
+#define TWINSHADE_APART __attribute__((noinline)) TWINSHADE_WHOLE
+#endif
 
 namespace twinshade {
 inline namespace TWINSHADE_ISA_NAMESPACE {

@@ -24,7 +24,7 @@ namespace detail {
 
 // A lane's value in all four channels of its texel, in the layout of transpose_groups' row j.
 template <int j, class V>
-TWINSHADE_INLINE V spread_lane(const V& lanes) {
+TWINSHADE_FUNCTION V spread_lane(const V& lanes) {
   return [&]<int... k>(std::integer_sequence<int, k...>) TWINSHADE_LAMBDA {
     return __builtin_shufflevector(lanes, lanes, (k / 4 * 4 + j)...);
   }
@@ -69,7 +69,7 @@ struct TapWeights {
 
 // The taps that the struct ExactTaps of bilinear.glsl means (texel = x0 y0 x1 y1), in layer 0.
 template <class N, class ExactTaps>
-TWINSHADE_INLINE Taps<N::width> locate(const TextureView& view, const ExactTaps& taps) {
+TWINSHADE_FUNCTION Taps<N::width> locate(const TextureView& view, const ExactTaps& taps) {
   using twinshade::detail::clamp_to_size;
   using twinshade::detail::pitch;
   using U = typename N::U;
@@ -85,8 +85,8 @@ TWINSHADE_INLINE Taps<N::width> locate(const TextureView& view, const ExactTaps&
 // The taps that the struct SphereMapTaps of sphere_map/taps.glsl means (texel_00: x, y, layer of a map), of map `map`
 // of `maps` whose layers are interleaved.
 template <class N, class SphereMapTaps, class Maps, class Map>
-TWINSHADE_INLINE Taps<N::width> locate(const TextureView& view, const SphereMapTaps& taps, const Maps& maps,
-                                       const Map& map) {
+TWINSHADE_FUNCTION Taps<N::width> locate(const TextureView& view, const SphereMapTaps& taps, const Maps& maps,
+                                         const Map& map) {
   using twinshade::detail::clamp_to_size;
   using twinshade::detail::pitch;
   using I = typename N::I;
@@ -107,8 +107,8 @@ TWINSHADE_INLINE Taps<N::width> locate(const TextureView& view, const SphereMapT
 
 // Lanes first .. first + W - 1 of the whole.
 template <int W, int All>
-TWINSHADE_INLINE vec<Simd<float, W>, 4> filtered_texels(const float* texels, const TapIndices<All>& taps, int first,
-                                                        const vec<Simd<float, W>, 4>& weight) {
+TWINSHADE_FUNCTION vec<Simd<float, W>, 4> filtered_texels(const float* texels, const TapIndices<All>& taps, int first,
+                                                          const vec<Simd<float, W>, 4>& weight) {
   if constexpr (Simd<float, W>::whole) {
     Register<float, W> rows[4];
     const auto row = [&]<int j>(std::integral_constant<int, j>) TWINSHADE_LAMBDA {
@@ -142,7 +142,7 @@ TWINSHADE_INLINE vec<Simd<float, W>, 4> filtered_texels(const float* texels, con
 
 // Where the four texels are the same for all lanes: their numbers, times each lane's weights. From float `first` on.
 template <int W>
-TWINSHADE_INLINE vec<Simd<float, W>, 4> filtered_once(const float* texels, const Taps<W>& taps, int first) {
+TWINSHADE_FUNCTION vec<Simd<float, W>, 4> filtered_once(const float* texels, const Taps<W>& taps, int first) {
   using F = Simd<float, W>;
   const float* texel[4];
   for (int tap = 0; tap < 4; ++tap) texel[tap] = texels + std::size_t{taps.at[tap].lane(0)} * 4 + first;
@@ -155,7 +155,7 @@ TWINSHADE_INLINE vec<Simd<float, W>, 4> filtered_once(const float* texels, const
 }
 
 template <int W>
-TWINSHADE_INLINE vec<Simd<float, W>, 4> filtered(const float* texels, const Taps<W>& taps) {
+TWINSHADE_FUNCTION vec<Simd<float, W>, 4> filtered(const float* texels, const Taps<W>& taps) {
   if (taps.same_for_all_lanes()) return filtered_once(texels, taps, 0);
   return filtered_texels<W>(texels, TapIndices<W>(taps), 0, taps.weight);
 }
@@ -163,24 +163,24 @@ TWINSHADE_INLINE vec<Simd<float, W>, 4> filtered(const float* texels, const Taps
 // --- two or four layers that lie side by side
 
 template <class V, class Pick>
-TWINSHADE_INLINE V shuffle(const V& a, const V& b, Pick pick) {
+TWINSHADE_FUNCTION V shuffle(const V& a, const V& b, Pick pick) {
   return [&]<int... k>(std::integer_sequence<int, k...>) TWINSHADE_LAMBDA {
     return __builtin_shufflevector(a, b, pick(k)...);
   }
   (std::make_integer_sequence<int, sizeof(V) / 4>());
 }
 // Blocks of 128 bits 0 and 2, or 1 and 3, of two registers of four.
-TWINSHADE_INLINE Float16 even_blocks(const Float16& a, const Float16& b) {
+TWINSHADE_FUNCTION Float16 even_blocks(const Float16& a, const Float16& b) {
   return shuffle(a, b, [](int k) TWINSHADE_LAMBDA { return k / 4 % 2 * 8 + k % 4 + (k >= 8 ? 16 : 0); });
 }
-TWINSHADE_INLINE Float16 odd_blocks(const Float16& a, const Float16& b) {
+TWINSHADE_FUNCTION Float16 odd_blocks(const Float16& a, const Float16& b) {
   return shuffle(a, b, [](int k) TWINSHADE_LAMBDA { return 4 + k / 4 % 2 * 8 + k % 4 + (k >= 8 ? 16 : 0); });
 }
 
 // Block b of rows[i] becomes block i of rows[b], for the register's 1, 2 or 4 blocks of 128 bits; rows are those j,
 // j + 4 ... of W.
 template <class V, int W>
-TWINSHADE_INLINE void transpose_blocks(V (&rows)[W]) {
+TWINSHADE_FUNCTION void transpose_blocks(V (&rows)[W]) {
   constexpr auto low = [](int k) TWINSHADE_LAMBDA { return k % (W / 2) + (k >= W / 2 ? W : 0); };
   constexpr auto high = [](int k) TWINSHADE_LAMBDA { return W / 2 + k % (W / 2) + (k >= W / 2 ? W : 0); };
   if constexpr (W == 8) {
@@ -203,8 +203,9 @@ TWINSHADE_INLINE void transpose_blocks(V (&rows)[W]) {
 
 // The four channels of each of `count` layers, 2 or 4.
 template <int W, int count, int All>
-TWINSHADE_INLINE void filtered_layers(const float* texels, const TapIndices<All>& taps, const TapWeights<All>& weights,
-                                      int first, vec<Simd<float, W>, 4> (&layers)[count]) {
+TWINSHADE_FUNCTION void filtered_layers(const float* texels, const TapIndices<All>& taps,
+                                        const TapWeights<All>& weights, int first,
+                                        vec<Simd<float, W>, 4> (&layers)[count]) {
   if constexpr (!Simd<float, W>::whole) {
     vec<Simd<float, W / 2>, 4> low[count], high[count];
     filtered_layers<W / 2>(texels, taps, weights, first, low);
@@ -249,14 +250,14 @@ TWINSHADE_INLINE void filtered_layers(const float* texels, const TapIndices<All>
 
 // A call: shaders fetch in many places, and this is long.
 template <int W, int count>
-__attribute__((noinline)) void filter_layers_apart(const float* texels, const Taps<W>& taps,
-                                                   vec<Simd<float, W>, 4> (&layers)[count]) {
+__attribute__((noinline)) TWINSHADE_WHOLE void filter_layers_apart(const float* texels, const Taps<W>& taps,
+                                                                   vec<Simd<float, W>, 4> (&layers)[count]) {
   filtered_layers<W>(texels, TapIndices<W>(taps), TapWeights<W>(taps), 0, layers);
 }
 
 // Four layers from the texels on.
 template <int W>
-TWINSHADE_INLINE mat<Simd<float, W>, 4, 4> filtered_4(const float* texels, const Taps<W>& taps) {
+TWINSHADE_FUNCTION mat<Simd<float, W>, 4, 4> filtered_4(const float* texels, const Taps<W>& taps) {
   if (taps.same_for_all_lanes())
     return {filtered_once(texels, taps, 0), filtered_once(texels, taps, 4), filtered_once(texels, taps, 8),
             filtered_once(texels, taps, 12)};
@@ -267,7 +268,7 @@ TWINSHADE_INLINE mat<Simd<float, W>, 4, 4> filtered_4(const float* texels, const
 
 // One uniform fetch for all lanes: as the GLSL has it.
 template <class ExactTaps, class Fetch>
-TWINSHADE_INLINE auto uniform_fetch(const ExactTaps& taps, Fetch fetch) {
+TWINSHADE_FUNCTION auto uniform_fetch(const ExactTaps& taps, Fetch fetch) {
   const auto low =
       fetch(taps.texel.x, taps.texel.y) * taps.weight.x + fetch(taps.texel.z, taps.texel.y) * taps.weight.y;
   return low + (fetch(taps.texel.x, taps.texel.w) * taps.weight.z + fetch(taps.texel.z, taps.texel.w) * taps.weight.w);
@@ -278,12 +279,12 @@ TWINSHADE_INLINE auto uniform_fetch(const ExactTaps& taps, Fetch fetch) {
 inline bool has_colors_together(const TextureView& view) { return view.layer_pitch == 3; }
 
 template <class F>
-TWINSHADE_INLINE vec<F, 3> rgb(const vec<F, 4>& texel) {
+TWINSHADE_FUNCTION vec<F, 3> rgb(const vec<F, 4>& texel) {
   return {texel.x, texel.y, texel.z};
 }
 
 template <class N>
-TWINSHADE_INLINE Colors5<N> filtered_5(const float* texels, const Taps<N::width>& taps) {
+TWINSHADE_FUNCTION Colors5<N> filtered_5(const float* texels, const Taps<N::width>& taps) {
   const mat<typename N::F, 4, 4> m = filtered_4(texels, taps);
   return {{{m.c[0].x, m.c[0].y, m.c[0].z},
            {m.c[0].w, m.c[1].x, m.c[1].y},
@@ -307,7 +308,8 @@ struct LaneTexel {
 // texels_of(lane): where the first of five layers is in the four texels. One number at a time: for policies without
 // lanes, and for layers that do not begin a five.
 template <class N, class TexelsOf>
-Colors5<N> colors_by_lane(const TextureView& view, const vec<typename N::F, 4>& weight, TexelsOf texels_of) {
+TWINSHADE_APART Colors5<N> colors_by_lane(const TextureView& view, const vec<typename N::F, 4>& weight,
+                                          TexelsOf texels_of) {
   using E = typename N::F::element;
   const auto clamp = [](std::int32_t i, std::int32_t size) { return i < 0 ? 0 : i < size ? i : size - 1; };
   Colors5<N> colors;
@@ -333,10 +335,10 @@ Colors5<N> colors_by_lane(const TextureView& view, const vec<typename N::F, 4>& 
 
 // As the GLSL of sphere_map_fetch has it.
 template <class N, class Maps, class Map>
-TWINSHADE_INLINE vec<typename N::F, 3> sphere_map_color(const TextureView& view,
-                                                        const vec<typename N::I, 3> (&texels)[4],
-                                                        const vec<typename N::F, 4>& weight, const Maps& maps,
-                                                        const Map& map) {
+TWINSHADE_FUNCTION vec<typename N::F, 3> sphere_map_color(const TextureView& view,
+                                                          const vec<typename N::I, 3> (&texels)[4],
+                                                          const vec<typename N::F, 4>& weight, const Maps& maps,
+                                                          const Map& map) {
   using Ints = typename N::I;
   const auto texel = [&](int tap) TWINSHADE_LAMBDA {
     using twinshade::detail::clamp_to_size;
@@ -363,7 +365,7 @@ template <class N>
 inline constexpr bool has_sphere_map_fetch_5 = true;
 
 template <class N, class Real, class ExactTaps>
-TWINSHADE_INLINE vec<typename N::F, 4> exact_fetch(Sampler2D<Real> map, const ExactTaps& taps) {
+TWINSHADE_FUNCTION vec<typename N::F, 4> exact_fetch(Sampler2D<Real> map, const ExactTaps& taps) {
   if constexpr (is_simd<N>) {
     return detail::filtered<N::width>(map.view->texels, detail::locate<N>(*map.view, taps));
   } else {
@@ -373,7 +375,7 @@ TWINSHADE_INLINE vec<typename N::F, 4> exact_fetch(Sampler2D<Real> map, const Ex
   }
 }
 template <class N, class Real, class ExactTaps, Lane I>
-TWINSHADE_INLINE vec<typename N::F, 4> exact_fetch(Sampler2DArray<Real> maps, const ExactTaps& taps, const I& layer) {
+TWINSHADE_FUNCTION vec<typename N::F, 4> exact_fetch(Sampler2DArray<Real> maps, const ExactTaps& taps, const I& layer) {
   if constexpr (!is_simd<N>) {
     return detail::uniform_fetch(taps, [&](const auto& x, const auto& y) TWINSHADE_LAMBDA {
       return glsl::texelFetch(maps, vec<typename N::I, 3>(x, y, layer), typename N::UI(0));
@@ -394,8 +396,8 @@ TWINSHADE_INLINE vec<typename N::F, 4> exact_fetch(Sampler2DArray<Real> maps, co
 }
 
 template <class N, class Real, class ExactTaps, Lane I>
-TWINSHADE_INLINE mat<typename N::F, 4, 4> exact_fetch_4(Sampler2DArray<Real> maps, const ExactTaps& taps,
-                                                        const I& first) {
+TWINSHADE_FUNCTION mat<typename N::F, 4, 4> exact_fetch_4(Sampler2DArray<Real> maps, const ExactTaps& taps,
+                                                          const I& first) {
   if constexpr (is_simd<N>) {
     const TextureView& view = *maps.view;
     // Of the padding only copies of the last layer are read: what the GLSL reads there.
@@ -413,8 +415,8 @@ TWINSHADE_INLINE mat<typename N::F, 4, 4> exact_fetch_4(Sampler2DArray<Real> map
 }
 
 template <class N, class Real, class ExactTaps, Lane I>
-TWINSHADE_INLINE mat<typename N::F, 2, 4> exact_fetch_pair(Sampler2DArray<Real> first, Sampler2DArray<Real> second,
-                                                           const ExactTaps& taps, const I& layer) {
+TWINSHADE_FUNCTION mat<typename N::F, 2, 4> exact_fetch_pair(Sampler2DArray<Real> first, Sampler2DArray<Real> second,
+                                                             const ExactTaps& taps, const I& layer) {
   if constexpr (is_simd<N>) {
     const TextureView& view = *first.view;
     // Each texel of the one beside that of the other: then all pitches are the same, too.
@@ -435,8 +437,8 @@ TWINSHADE_INLINE mat<typename N::F, 2, 4> exact_fetch_pair(Sampler2DArray<Real> 
 }
 
 template <class N, class Real, class SphereMapTaps, Lane Maps, Lane Map>
-TWINSHADE_INLINE vec<typename N::F, 4> sphere_map_fetch(Sampler2DArray<Real> array, const SphereMapTaps& taps,
-                                                        const Maps& maps, const Map& map) {
+TWINSHADE_FUNCTION vec<typename N::F, 4> sphere_map_fetch(Sampler2DArray<Real> array, const SphereMapTaps& taps,
+                                                          const Maps& maps, const Map& map) {
   static_assert(is_simd<N>);
   return detail::filtered<N::width>(array.view->texels, detail::locate<N>(*array.view, taps, maps, map));
 }
@@ -444,7 +446,7 @@ TWINSHADE_INLINE vec<typename N::F, 4> sphere_map_fetch(Sampler2DArray<Real> arr
 // --- RGB of five layers: maps laid out so are read here alone, so every policy has these
 
 template <class N, class Real, class ExactTaps, Lane I>
-TWINSHADE_INLINE Colors5<N> exact_fetch_5(Sampler2DArray<Real> maps, const ExactTaps& taps, const I& five) {
+TWINSHADE_FUNCTION Colors5<N> exact_fetch_5(Sampler2DArray<Real> maps, const ExactTaps& taps, const I& five) {
   const TextureView& view = *maps.view;
   if (!detail::has_colors_together(view)) {
     const auto layer = [&](int k) TWINSHADE_LAMBDA {
@@ -479,8 +481,8 @@ TWINSHADE_INLINE Colors5<N> exact_fetch_5(Sampler2DArray<Real> maps, const Exact
 }
 
 template <class N, class Real, class SphereMapTaps, Lane Maps, Lane Five>
-TWINSHADE_INLINE Colors5<N> sphere_map_fetch_5(Sampler2DArray<Real> array, const SphereMapTaps& taps, const Maps& maps,
-                                               const Five& five) {
+TWINSHADE_FUNCTION Colors5<N> sphere_map_fetch_5(Sampler2DArray<Real> array, const SphereMapTaps& taps,
+                                                 const Maps& maps, const Five& five) {
   using Ints = typename N::I;
   const TextureView& view = *array.view;
   const vec<Ints, 3> texels[4] = {vec<Ints, 3>(taps.texel_00), vec<Ints, 3>(taps.texel_10), vec<Ints, 3>(taps.texel_01),

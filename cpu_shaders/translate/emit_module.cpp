@@ -186,7 +186,7 @@ class ModuleEmitter {
     }
     write_constructor();
     out.line("");
-    out.open("TWINSHADE_INLINE void run() {");
+    out.open("TWINSHADE_FUNCTION void run() {");
     const std::string main = "    main();\n";
     for (const std::string* block : std::initializer_list<const std::string*>{&reset_, &main, &outputs_}) {
       std::string rest = *block;

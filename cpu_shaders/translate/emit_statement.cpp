@@ -74,7 +74,7 @@ void FunctionEmitter::run() {
   const bool returns_value = module_.type(result_type).kind != Kind::none;
   const std::string result = returns_value ? types_.name(result_type, at_.result_varying) : "void";
   position(info_.function->file, info_.function->line);
-  out_.open((at_.inlined ? "TWINSHADE_INLINE " : "") + result + " " + at_.name + "(" + list_text + ") {");
+  out_.open((at_.inlined ? "TWINSHADE_FUNCTION " : "TWINSHADE_APART ") + result + " " + at_.name + "(" + list_text + ") {");
   const bool served = is_served(module_, *info_.function);
   if (served) {
     const std::string& name = info_.function->name;

@@ -38,9 +38,10 @@ bool is_integer_zero(const Expression& e) {
   return e.kind == Kind::literal && e.type.is_integer() && e.integer && *e.integer == 0;
 }
 
-// Nine significant digits of the float that is meant.
+// Nine significant digits of the float that is meant, zeros at the end left out where what is left is the float exactly.
 std::string literal_text(float value) {
   std::string text = fmt::format("{:.9g}", value);
+  if (std::stod(text) != double{value}) text = fmt::format("{:#.9g}", value);
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
   return text;
 }

@@ -62,7 +62,9 @@ std::string first_glslang_error(const ShaderSource& source, const char* log) {
     if (line.rfind("ERROR: ", 0) != 0) continue;
     std::smatch match;
     if (std::regex_match(line, match, with_position)) {
-      const std::string file = match[1].str() == "0" ? source.files.at(0) : match[1].str();
+      // A number is the author's, of a #line as drivers have it.
+      std::string file = match[1];
+      if (file.find_first_not_of("0123456789") == std::string::npos) file = source.files.at(0);
       return file + ":" + match[2].str() + ": " + explained(match[3].str());
     }
     if (fallback.empty()) fallback = source.files.at(0) + ": " + line.substr(7);

@@ -19,8 +19,8 @@ void start_glslang();
 // which glslang makes no SPIR-V of.
 EShMessages set_opengl_environment(glslang::TShader& shader, EShLanguage stage);
 
-// The versions to read the shader as, one after another until one accepts it: the author's, whose complaint is the one
-// to report (ES: 310 at least), and 450 for what an earlier one lacks.
+// The versions to read the shader as, one after another until one accepts it: the author's (ES: 310 at least), and 450
+// for what an earlier one lacks.
 std::vector<int> glslang_versions(const ShaderSource& source);
 
 // The whole text under a #version line of its own, with #line "file" allowed.

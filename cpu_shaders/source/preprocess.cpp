@@ -14,9 +14,7 @@ namespace {
 
 std::mutex mutex;
 
-std::string preprocess_locked(const ShaderSource& source) {
-  start_glslang();
-  const int version = source.es ? source.version : glslang_versions(source).front();
+std::string preprocess_as(const ShaderSource& source, int version) {
   const std::string text = glslang_text(source, version);
   constexpr EShLanguage kStage = EShLangFragment;  // of any version, and all the same to the preprocessor
   glslang::TShader shader(kStage);
@@ -33,6 +31,20 @@ std::string preprocess_locked(const ShaderSource& source) {
                          &result, no_includes))
     throw UserError(first_glslang_error(source, shader.getInfoLog()));
   return result;
+}
+
+// As the author's version, and as 450 where it has lines that are continued by a backslash, which are of 420: not if the
+// text can tell.
+std::string preprocess_locked(const ShaderSource& source) {
+  start_glslang();
+  if (source.es) return preprocess_as(source, source.version);
+  const std::vector<int> versions = glslang_versions(source);
+  try {
+    return preprocess_as(source, versions.front());
+  } catch (const UserError&) {
+    if (versions.size() == 1 || source.text.find("__VERSION__") != std::string::npos) throw;
+  }
+  return preprocess_as(source, versions.back());
 }
 
 }  // namespace

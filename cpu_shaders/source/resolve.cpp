@@ -271,6 +271,15 @@ ShaderSource load_shader(const std::string& path, const std::vector<std::string>
   return resolve_shader(fs::path(path).stem().string(), text, path, include_folders);
 }
 
+ShaderSource load_fragment_shader(const std::string& path, const std::vector<std::string>& include_folders) {
+  ShaderSource source = load_shader(path, include_folders);
+  if (source.stage == ShaderStage::compute)
+    throw UserError(path +
+                    ": a compute shader (.comp) is neither drawn nor checked: `twinshade translate` translates and "
+                    "lints it, run_compute() runs it from C++");
+  return source;
+}
+
 std::string source_hash(const ShaderSource& source) {
   Sha256 hash;
   hash.add(std::to_string(source.version) + (source.es ? " es\n" : "\n"));

@@ -5,7 +5,6 @@
 #include <glslang/SPIRV/GlslangToSpv.h>
 
 #include <algorithm>
-#include <exception>
 #include <mutex>
 #include <regex>
 #include <string_view>
@@ -120,6 +119,15 @@ std::vector<std::uint32_t> compile(const ShaderSource& source, int version, bool
   return words;
 }
 
+// Of two readings' complaints, "file:line: message" both, the further one is about what neither accepts: a reading ends
+// where it meets what only the other has.
+bool is_further(const std::string& complaint, const std::string& other) {
+  static const std::regex position(R"(^(.*?):(\d+): )");
+  std::smatch a, b;
+  return std::regex_search(complaint, a, position) && std::regex_search(other, b, position) && a[1] == b[1] &&
+         std::stoll(a[2]) > std::stoll(b[2]);
+}
+
 // GLSL ES 300 has no SPIR-V: it is checked as what it says it is, then translated as ES 310. Desktop GLSL older than
 // 450 is read as 450 where its version lacks something that it uses: `precise`, say, which means the same in all (but
 // `sample` and `buffer` are names there, not keywords).
@@ -139,15 +147,15 @@ std::vector<std::uint32_t> compile_any_version(const ShaderSource& source) {
     drop_ending(words);
     return words;
   }
-  std::exception_ptr complaint;
+  std::string complaint;
   for (const int version : glslang_versions(source)) {
     try {
       return compile(source, version, true);
-    } catch (const UserError&) {
-      if (!complaint || version == source.version) complaint = std::current_exception();
+    } catch (const UserError& error) {
+      if (complaint.empty() || is_further(error.what(), complaint)) complaint = error.what();
     }
   }
-  std::rethrow_exception(complaint);
+  throw UserError(complaint);
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ bool as_increment(const std::vector<std::string>& lines, std::string& increment)
 
 }  // namespace
 
-// What keeps the loop going; advances the loop's mask where lanes may differ.
+// What keeps the loop going, nothing where that is always so; advances the loop's mask where lanes may differ.
 std::string FunctionEmitter::loop_condition(const Statement& s, Id condition, bool inverted,
                                             const std::string& own_mask) {
   bool may_discard = false;
@@ -104,7 +104,7 @@ void FunctionEmitter::loop(const Statement& s) {
     rest = 2;
   }
   std::string condition;
-  bool has_condition = test != nullptr || s.back_condition != 0;
+  const bool has_condition = test != nullptr || s.back_condition != 0;
   std::vector<std::string> head;
   if (test != nullptr) {
     if (rest == 2) {
@@ -139,10 +139,7 @@ void FunctionEmitter::loop(const Statement& s) {
   const std::vector<std::string> continuing = out_.take(mark);
   last_line_ = 0;  // what was written last may stand in the head, above the body
   names_.close();
-  if (!has_condition) {
-    condition = loop_condition(s, 0, false, own);
-    has_condition = !condition.empty();
-  }
+  if (!has_condition) condition = loop_condition(s, 0, false, own);
   out_.outdent();
 
   std::string increment;
@@ -152,9 +149,9 @@ void FunctionEmitter::loop(const Statement& s) {
     if (!init.empty()) out_.line(init + ";");
     out_.line("do {");
     out_.append(body);
-    out_.line("} while (" + back + ");");
+    out_.line("} while (" + (back.empty() ? "true" : back) + ");");
   } else if (simple && s.back_condition == 0 && head.empty()) {
-    if (init.empty() && increment.empty() && has_condition)
+    if (init.empty() && increment.empty() && !condition.empty())
       out_.line("while (" + condition + ") {");
     else
       out_.line(open_for + (condition.empty() ? "" : " " + condition) + ";" +
@@ -166,10 +163,10 @@ void FunctionEmitter::loop(const Statement& s) {
     const std::string again = names_.declare("again");
     if (!init.empty()) out_.line(init + ";");
     out_.open("for (bool " + again + " = false;; " + again + " = true) {");
-    if (!continuing.empty() || s.back_condition != 0) {
+    if (!continuing.empty() || !back.empty()) {
       out_.line("if (" + again + ") {");
       out_.append(continuing);
-      if (s.back_condition != 0) out_.line("  if (!(" + back + ")) break;");
+      if (!back.empty()) out_.line("  if (!(" + back + ")) break;");
       out_.line("}");
     }
     out_.append(head);

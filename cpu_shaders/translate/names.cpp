@@ -1,5 +1,7 @@
 #include "cpu_shaders/translate/names.h"
 
+#include <algorithm>
+
 #include "cpu_shaders/translate/cpp_keywords.h"
 
 namespace twinshade::spirv {
@@ -140,6 +142,18 @@ const std::set<std::string>& reserved() {
   return words;
 }
 
+// What the headers of C and its compilers define as macros differs; all but these few are in capitals. Seen with
+// g++ 12, clang 14 and glibc 2.36.
+bool may_be_a_macro(const std::string& name) {
+  static const std::set<std::string> in_small_letters = {
+      "L_ctermid", "L_cuserid", "L_tmpnam", "P_tmpdir", "alloca",  "be16toh", "be32toh", "be64toh",
+      "errno",     "htobe16",   "htobe32",  "htobe64",  "htole16", "htole32", "htole64", "le16toh",
+      "le32toh",   "le64toh",   "linux",    "offsetof", "stderr",  "stdin",   "stdout",  "strdupa",
+      "strndupa",  "unix",      "va_arg",   "va_copy",  "va_end",  "va_start"};
+  const auto is_small = [](char c) { return c >= 'a' && c <= 'z'; };
+  return (name.size() > 1 && std::none_of(name.begin(), name.end(), is_small)) || in_small_letters.count(name) != 0;
+}
+
 }  // namespace
 
 bool is_cpp_keyword(const std::string& name) { return keywords().count(name) != 0; }
@@ -148,8 +162,6 @@ NameTable::NameTable() { open(); }
 
 bool NameTable::taken(const std::string& name) const {
   if (is_cpp_keyword(name) || reserved().count(name)) return true;
-  // Aliases of uniform types, the runtime's macros.
-  if ((name.rfind("uniform_", 0) == 0 || name.rfind("TWINSHADE_", 0) == 0) && name.back() != '_') return true;
   for (const auto& scope : scopes_)
     if (scope.count(name)) return true;
   return false;
@@ -160,7 +172,8 @@ std::string NameTable::declare(const std::string& wanted) {
   // Two underscores in a row are reserved in C++ as in GLSL, where they only warn.
   for (std::size_t at = name.find("__"); at != std::string::npos; at = name.find("__")) name.erase(at, 1);
   if (name[0] == '_') name.insert(0, "x");
-  if (taken(name)) {
+  // Aliases of uniform types begin with uniform_.
+  if (name.rfind("uniform_", 0) == 0 || may_be_a_macro(name) || taken(name)) {
     const std::string base = name + '_';
     name = base;
     for (int k = 2; taken(name); ++k) name = base + std::to_string(k);

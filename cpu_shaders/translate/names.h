@@ -12,7 +12,7 @@ class NameTable {
   NameTable();
   void open() { scopes_.emplace_back(); }
   void close() { scopes_.pop_back(); }
-  // `wanted`, or `wanted` with a suffix if a keyword, the runtime or an open scope has it already.
+  // `wanted`, or `wanted` with a suffix if a keyword, the runtime or an open scope has it already, or a macro may.
   std::string declare(const std::string& wanted);
 
  private:

@@ -79,6 +79,8 @@ TEST_CASE("constants are computed where both machines compute alike, and literal
   CHECK(body_of("const float x = 0.1; const float y = x;") == "constfloatx=0.100000001;constfloaty=x;");
   CHECK(body_of("const float x = 1.0, y = 1.0 / 3.0; const float z = x;") ==
         "floatx=1.0,y=exact_divide(1.0,3.0);floatz=x;");
+  CHECK(body_of("float x = a.x * 2.4 + 0.5;") == "floatx=exact_add(exact_multiply(a.x,2.40000010),0.5);");
+  CHECK(left_of("float x = a.x * 2.4 + 3.1;") == "");
   CHECK(body_of("float x = a.x + 0.0;") == "floatx=exact_add(a.x,exact_zero);");
   CHECK(body_of("vec3 v = vec3(0);") == "vec3v=vec3(exact_zero);");
   CHECK(body_of("mat3 x = mat3(2.0);") == "mat3x=exact_diagonal_3(2.0,exact_zero);");

@@ -37,6 +37,11 @@ TEST_CASE("macros are expanded, conditionals decided, and comments gone") {
   CHECK_FALSE(has(text, "gone"));
 }
 
+TEST_CASE("lines continued by a backslash are read in versions that had none") {
+  for (const std::string version : {"330", "400", "410", "420", "450", "300 es"})
+    CHECK(has(preprocessed("#version " + version + "\n#define SUM(x) x + \\\n  one\nSUM(two)\n"), "two"));
+}
+
 TEST_CASE("compute shaders of versions that had none are read all the same") {
   for (const char* version : {"#version 330\n", "#version 450\n", "#version 310 es\n", ""})
     CHECK(has(preprocessed(std::string(version) + "layout(local_size_x = 4) in;\n", "t.comp"), "local_size_x"));

@@ -108,6 +108,19 @@ TEST_CASE("glslang's messages come with the author's file and line") {
   CHECK_MESSAGE(included.rfind("bad.frag:4: ", 0) == 0, included);
 }
 
+// Read as the author's version and as 450; each may stop at what only the other accepts.
+TEST_CASE("of an earlier version's two readings the complaint about what neither accepts is shown") {
+  const std::string newer = "#version 330\nlayout(binding = 1) uniform sampler2D map;\nout vec4 c;\n";
+  check_refused(newer + "void main() { c = texture(map, vec2(0)) + nope; }\n", 4, "nope");
+  CHECK(refusal(newer + "void main() { c = texture(map, vec2(0)); }\n") == "accepted");
+  check_refused(
+      "#version 330\nout vec4 c;\nvoid main() {\n  precise float x = float(bitCount(3));\n  c = vec4(x + nope);\n}\n",
+      5, "nope");
+  check_refused("#version 330\nout vec4 c;\nvoid main() {\n  float sample = 1.0;\n  c = vec4(sample + nope);\n}\n", 5,
+                "nope");
+  check_refused("#version 330\nout vec4 c;\n#line 200 7\nvoid main() { c = vec4(nope); }\n", 200, "nope");
+}
+
 TEST_CASE("recursion is refused with its calls, each at its line") {
   check_refused(kHead + "int f(int n) {\n  return n == 0 ? 1 : f(n - 1);\n}\nvoid main() { color = vec4(f(3)); }\n", 4,
                 "f calls itself, and GLSL has no recursion: write a loop; the calls are f -> f (bad.frag:4)");

@@ -423,9 +423,12 @@ TEST_CASE("input blocks, functions of two results, initialised uniforms, arrays 
       // Of the four texels round the middle: (1, 1), (2, 1), (2, 0), (1, 0); one to the left for the red ones.
       const double gathered[] = {60 + 5000, 70 + 6000, 30 + 2000, 20 + 1000};
       const double forms[] = {7, 1, 3, 11};
+      const double macros[] = {a + 0.5, 1, 2, 0.5};
       const bool truths[] = {a != 0, (b & 1) != 0, (a & 2) != 0, b != 0};
       for (std::size_t c = 0; c < 4; ++c) {
         check_value(answer, "truths", c, i, truths[c], number);
+        check_value(answer, "loops", c, i, 2 + 10.0 * (a + 1 + (c == 3 ? 3 : 0)), number);
+        check_value(answer, "macros", c, i, macros[c], number);
         check_value(answer, "inputs_out", c, i, inputs[c], number);
         check_value(answer, "split", c, i, split[c], number);
         check_value(answer, "wide", c, i, wide[c], number);

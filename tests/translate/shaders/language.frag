@@ -1,4 +1,5 @@
-// Input blocks and structs, functions of two results, initialised uniforms, arrays of blocks, texture forms.
+// Input blocks and structs, functions of two results, initialised uniforms, arrays of blocks, texture forms, loops that only
+// a jump ends, names that are macros in C.
 #version 450
 in Surface { vec2 uv; flat int a; flat int b; } surface[2];
 in Loose { float scale; };
@@ -25,6 +26,43 @@ layout(location = 4) out vec4 gathered;
 layout(location = 5) out vec4 forms;
 layout(location = 6) out vec4 edges;
 layout(location = 7) out vec4 truths;
+layout(location = 8) out vec4 loops;
+layout(location = 9) out vec4 macros;
+
+struct Hit { int EOF; float errno; };
+const float FLT_MAX = 0.5;
+
+// All of these give n + 1.
+int end_while(int n) {
+  int k = 0;
+  float sign = 1.0;
+  while (true) {
+    if (++k > n) break;
+    sign = -sign;
+  }
+  return k;
+}
+int end_for(int n) {
+  int k = 0;
+  for (; 1 < 2;)
+    if (++k > n) return k;
+}
+int end_do(int n) {
+  int k = 0;
+  do {
+    if (++k > n) break;
+  } while (true);
+  return k;
+}
+int end_do_after(int n) {
+  const bool always = true;
+  int k = 0;
+  do {
+    if (k++ == 2) continue;
+    if (k > n) break;
+  } while (always);
+  return k;
+}
 
 void main() {
   int a = surface[0].a, b = surface[1].b;
@@ -50,6 +88,17 @@ void main() {
   atomicAdd(sums[which].total, 1u);
 
   vec2 middle = vec2(2.0, 1.0) / vec2(4.0, 2.0);  // of a map of 4 x 2: between texels
+  loops = vec4(end_while(which), end_for(which), end_do(which), end_do_after(which)) +
+          10.0 * vec4(end_while(a), end_for(a), end_do(a), end_do_after(3 + a));
+  float stdin = FLT_MAX, M_PI = float(a);
+  Hit hit = Hit(which, stdin + M_PI);
+  int INT_MAX = hit.EOF, uniform_vec2 = 1;
+  {
+    int INT_MAX = uniform_vec2 + 1, uniform_vec2 = 3;
+    hit.EOF = INT_MAX + uniform_vec2 - 4;
+  }
+  macros = vec4(hit.errno, hit.EOF, INT_MAX + uniform_vec2, stdin);
+
   gathered = textureGather(map, middle, 1) + 1000.0 * textureGatherOffset(map, middle, ivec2(-1, 0));
   truths = vec4(bvec2(ivec2(a, b & 1)), bvec2(uvec2(a & 2, b)));
   edges = textureGather(map, vec2(0.0), 1) + 1000.0 * textureGather(map, vec2(1.0), 1);

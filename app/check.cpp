@@ -20,6 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::uint64_t kMostUlp = UINT32_MAX;  // there are no more floats
+
 Backend backend_of(const std::string& name) {
   for (const Backend backend : kBackends)
     if (name == backend_name(backend)) return backend;
@@ -131,18 +133,17 @@ Verb add_check(CLI::App& app) {
                                     "backends; the first is what the others are compared with (default: all that work)")
                        ->delimiter(',')
                        ->type_name("B,...");
-  command->add_option("--rows", verb->options.generate.rows, "rows of generated inputs (default: 2048)")
-      ->check(CLI::Range(std::size_t{1}, kMostTableRows))
-      ->type_name("N");
+  add_whole_option(*command, "--rows", "rows of generated inputs (default: 2048)", 1, kMostTableRows,
+                   [verb = verb.get()](std::uint64_t rows) { verb->options.generate.rows = std::size_t(rows); });
   command
       ->add_option("--inputs", verb->options.inputs_file,
                    "ranges of inputs (default: SHADER.inputs, where there is one)")
       ->type_name("FILE");
-  command->add_option("-I,--include", verb->options.include_folders, "folder to look for included files in")
-      ->type_name("DIR");
+  add_include_option(*command, verb->options.include_folders);
   command->add_flag("--make-exact", verb->options.make_exact, "compare the shader brought into the exact dialect");
-  command->add_option("--ulp", verb->options.ulp, "largest distance that is called the same (default: 0)")
-      ->type_name("N");
+  add_whole_option(*command, "--ulp",
+                   "largest distance that is called the same, +0 and -0 being 0 apart (default: every bit has to be)",
+                   0, kMostUlp, [verb = verb.get()](std::uint64_t ulp) { verb->options.ulp = ulp; });
   command->add_option("--junit", verb->junit, "write JUnit XML")->type_name("FILE");
   add_annotate_option(*command, verb->annotate);
   command->add_flag("--no-timing", verb->no_timing, "do not measure nanoseconds");

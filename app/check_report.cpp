@@ -12,6 +12,7 @@ namespace twinshade {
 namespace {
 
 std::string ulp_text(std::uint64_t ulp) {
+  if (ulp == 0) return "the sign of zero alone";
   return ulp == UINT64_MAX ? "no distance in ULP" : fmt::format("{} ULP", ulp);
 }
 

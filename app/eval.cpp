@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <iterator>
 #include <memory>
+#include <utility>
 
 #include "app/eval_report.h"
 #include "app/machines.h"
@@ -25,37 +27,47 @@ using Clock = std::chrono::steady_clock;
 // A shader and its cases, both files.
 struct CasePaths {
   std::string shader, cases;
+  std::string missing = {};  // what to say where one of the two is not there
 };
 
-// NAME.frag with NAME.json, by name. UserError for an empty folder or a file without its partner.
+// NAME.frag with NAME.json, by name. UserError for an empty folder.
 std::vector<CasePaths> pairs_in(const std::string& folder) {
   std::vector<CasePaths> pairs;
-  std::vector<std::string> lonely;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const fs::path path = entry.path();
     const bool shader = path.extension() == ".frag";
     if (!shader && path.extension() != ".json") continue;
     const fs::path partner = fs::path(path).replace_extension(shader ? ".json" : ".frag");
-    if (!fs::exists(partner)) lonely.push_back(path.string() + " has no " + partner.filename().string() + " beside it");
-    if (shader) pairs.push_back({path.string(), partner.string()});
+    const bool paired = fs::exists(partner);
+    if (paired && !shader) continue;
+    pairs.push_back({path.string(), partner.string()});
+    if (!paired)
+      pairs.back().missing = path.string() + " has no " + partner.filename().string() +
+                             " beside it: add it, or move the file to another folder";
+    if (!shader) std::swap(pairs.back().shader, pairs.back().cases);
   }
-  if (!lonely.empty()) throw UserError(*std::min_element(lonely.begin(), lonely.end()));
   if (pairs.empty()) throw UserError(folder + ": no shaders in it: it needs pairs NAME.frag and NAME.json");
   std::sort(pairs.begin(), pairs.end(), [](const CasePaths& a, const CasePaths& b) { return a.shader < b.shader; });
   return pairs;
 }
 
 // "lanes" is what shading has registers for; "double" and "float" are what people call float64 and scalar.
+constexpr const char* kEvalNumbers[] = {"lanes4", "lanes8", "lanes16", "lanes", "scalar", "float", "double", "float64"};
+
 Number number_named(const std::string& name) {
   if (name == "lanes") return natural_number(machine_isa());
   if (name == "double") return Number::float64;
   if (name == "float") return Number::scalar;
+  const std::vector<std::string> names(std::begin(kEvalNumbers), std::end(kEvalNumbers));
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    throw UserError(unknown_name_message("number type", name, names));
   return parse_number(name);
 }
 
 struct EvalVerb {
   CommonOptions common;
   std::string shader, cases_file, junit_file, annotate;
+  std::vector<std::string> include_folders;
   std::vector<std::string> backends{"cpu", "egl"};
   Number number = natural_number(machine_isa());
   EvaluatorOptions options;
@@ -72,15 +84,17 @@ struct EvalVerb {
     if (!many && cases_file.empty())
       throw UserError("--cases is missing: a JSON file with the inputs of " + shader +
                       " and the outputs that are expected");
-    const std::vector<CasePaths> paths = many ? pairs_in(shader) : std::vector<CasePaths>{{shader, cases_file}};
+    const std::vector<CasePaths> paths = many ? pairs_in(shader) : std::vector<CasePaths>{{shader, cases_file, ""}};
 
     std::vector<ShaderSource> sources(paths.size());
     std::vector<EvaluatedCase> cases(paths.size());
     for (std::size_t i = 0; i < paths.size(); ++i) {
       cases[i].name = fs::path(paths[i].shader).stem().string();
       cases[i].file = paths[i].shader;
+      cases[i].cases_file = paths[i].cases;
       guarded(cases[i], many, output, [&] {
-        sources[i] = load_shader(paths[i].shader);
+        if (!paths[i].missing.empty()) throw UserError(paths[i].missing);
+        sources[i] = load_fragment_shader(paths[i].shader, include_folders);
         cases[i].cases = parse_cases(read_file(paths[i].cases), paths[i].cases);
       });
     }
@@ -103,7 +117,9 @@ struct EvalVerb {
       action();
     } catch (const UserError& error) {
       c.error = error.what();
+      c.backends.clear();
       if (many) return;
+      write_json({c}, output);
       tell_services({c}, output);
       throw;
     }
@@ -125,7 +141,6 @@ struct EvalVerb {
       guarded(cases[i], many, output, [&] {
         for (const EvaluationTarget& target : targets) run_one(evaluator, sources[i], paths[i], target, cases[i]);
       });
-      if (!cases[i].error.empty()) cases[i].backends.clear();
     }
   }
 
@@ -152,13 +167,17 @@ struct EvalVerb {
     if (!annotate.empty()) output.text(github_annotations(eval_junit(cases)));
   }
 
-  int report(const std::vector<EvaluatedCase>& cases, bool many, const Output& output) const {
-    output.text(eval_text(cases, many));
+  void write_json(const std::vector<EvaluatedCase>& cases, const Output& output) const {
     Provenance provenance(common);
     for (const EvaluatedCase& c : cases)
       for (const EvaluatedBackend& backend : c.backends)
         if (backend.error.empty()) provenance.add(backend.name, backend.rows.provenance);
     output.json({{"provenance", provenance.json()}, {"cases", eval_json(cases)}});
+  }
+
+  int report(const std::vector<EvaluatedCase>& cases, bool many, const Output& output) const {
+    output.text(eval_text(cases, many));
+    write_json(cases, output);
     tell_services(cases, output);
     const auto has_error = [](const EvaluatedCase& c) { return c.has_error(); };
     if (std::any_of(cases.begin(), cases.end(), has_error)) return 2;
@@ -183,7 +202,8 @@ Verb add_eval(CLI::App& app) {
       ->add_option_function<std::string>(
           "--number", [verb = verb.get()](const std::string& name) { verb->number = number_named(name); },
           "number type of the CPU (default: lanes, as many as registers hold)")
-      ->type_name("lanes|lanes4|lanes8|lanes16|scalar|double");
+      ->type_name(fmt::format("{}", fmt::join(kEvalNumbers, "|")));
+  add_include_option(*command, verb->include_folders);
   command->add_option("--junit", verb->junit_file, "write the results as JUnit XML")->type_name("F.xml");
   add_annotate_option(*command, verb->annotate);
   add_fma_option(*command, verb->options.host_fma);

@@ -174,7 +174,10 @@ std::vector<JUnitCase> eval_junit(const std::vector<EvaluatedCase>& cases) {
   using Result = JUnitCase::Result;
   std::vector<JUnitCase> list;
   for (const EvaluatedCase& c : cases) {
-    if (!c.error.empty()) list.push_back({c.name, Result::error, c.error, "", 0, c.file, 0});
+    if (!c.error.empty()) {
+      const bool of_cases = c.error.rfind(c.cases_file, 0) == 0;
+      list.push_back({c.name, Result::error, c.error, "", 0, of_cases ? c.cases_file : c.file, 0});
+    }
     for (const EvaluatedBackend& backend : c.backends) {
       const bool failed = !backend.comparison.failures.empty();
       const std::string message = failed || !backend.error.empty() ? result_text(c, backend) : "";

@@ -21,9 +21,10 @@ struct EvaluatedBackend {
 };
 
 struct EvaluatedCase {
-  std::string name;   // of the shader's file, without folder and ending
-  std::string file;   // the shader's
-  std::string error;  // what is wrong with the shader or its cases; empty: nothing
+  std::string name;  // of the shader's file, without folder and ending
+  std::string file;  // the shader's
+  std::string cases_file;
+  std::string error;  // what is wrong with the shader or its cases, one of them missing included; empty: nothing
   Cases cases;
   std::vector<EvaluatedBackend> backends;
 

@@ -6,7 +6,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <iterator>
+#include <utility>
 
 #include "base/error.h"
 #include "base/names.h"
@@ -292,6 +294,24 @@ void add_cpu_options(CLI::App& command, CpuOptions& options) {
 void add_count_option(CLI::App& command, const std::string& name, int& count, const std::string& description) {
   add_parsed(command, name, "N", fmt::format("{} (default: {})", description, count),
              [name, &count](const std::string& text) { count = parse_between(name, text, 1, 1000); });
+}
+
+void add_whole_option(CLI::App& command, const std::string& name, const std::string& description, std::uint64_t least,
+                      std::uint64_t most, std::function<void(std::uint64_t)> take) {
+  add_parsed(command, name, "N", description, [name, least, most, take = std::move(take)](const std::string& text) {
+    take(parse_between(name, text, least, most));
+  });
+}
+
+void add_include_option(CLI::App& command, std::vector<std::string>& folders) {
+  command.add_option("-I,--include", folders, "folder to look for included files in; again for several")
+      ->each([](const std::string& folder) {
+        std::error_code code;
+        const bool built_in = folder.rfind("builtin:", 0) == 0;  // of the shaders in the program
+        if (!built_in && !std::filesystem::is_directory(folder, code))
+          throw UserError("--include " + folder + ": there is no such folder");
+      })
+      ->type_name("DIR");
 }
 
 void add_time_limit_option(CLI::App& command, double& seconds) {

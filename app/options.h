@@ -104,6 +104,11 @@ void add_fma_option(CLI::App& command, bool& host_fma);
 void add_cpu_options(CLI::App& command, CpuOptions& options);
 void add_count_option(CLI::App& command, const std::string& name, int& count,
                       const std::string& description);  // 1 to 1000
+// A whole number; CLI11 takes -1 for the largest.
+void add_whole_option(CLI::App& command, const std::string& name, const std::string& description, std::uint64_t least,
+                      std::uint64_t most, std::function<void(std::uint64_t)> take);
+// -I, --include: folders that exist.
+void add_include_option(CLI::App& command, std::vector<std::string>& folders);
 void add_time_limit_option(CLI::App& command, double& seconds);
 void add_picture_options(CLI::App& command, PictureOptions& options);
 

@@ -250,7 +250,7 @@ Subject load_subject(const SubjectOptions& options, const ShadingOptions& shadin
                      const Output& output) {
   // Names and shaders are checked before anything that takes long.
   const bool own_shader = !shading.shader.empty();
-  const std::string text = own_shader ? load_shader(shading.shader).text : "";
+  const std::string text = own_shader ? load_fragment_shader(shading.shader).text : "";
   const std::vector<const TechniqueInfo*> chosen =
       own_shader ? std::vector<const TechniqueInfo*>() : chosen_techniques(shading);
   chosen_maps(shading);
@@ -291,7 +291,7 @@ Subject load_subject(const SubjectOptions& options, const ShadingOptions& shadin
 std::vector<Shading> load_shadings(const ShadingOptions& options, const Subject& subject) {
   std::vector<Shading> shadings;
   if (!options.shader.empty()) {
-    shadings.push_back({options.shader, "", "", load_shader(options.shader)});
+    shadings.push_back({options.shader, "", "", load_fragment_shader(options.shader)});
   } else {
     const TexturePacking packing = texture_packing(subject.bundle);
     for (const LitTechnique& lit : subject.drawn) {

@@ -20,9 +20,10 @@ namespace {
 
 // A file if there is one of that name or it looks like a path; else a technique, "h4", or its form for another place of
 // the coefficients, "h4_vertex" or "sh3_volume".
-ShaderSource source_of(const std::string& name) {
+ShaderSource source_of(const std::string& name, const std::vector<std::string>& include_folders) {
   std::error_code code;
-  if (std::filesystem::exists(name, code) || name.find_first_of("./\\") != std::string::npos) return load_shader(name);
+  if (std::filesystem::exists(name, code) || name.find_first_of("./\\") != std::string::npos)
+    return load_shader(name, include_folders);
   std::vector<std::string> names;
   for (const TechniqueInfo& technique : techniques()) {
     const bool lightmap = can_read(technique, CoefficientStorage::lightmap);
@@ -38,13 +39,14 @@ ShaderSource source_of(const std::string& name) {
 struct TranslateVerb {
   CommonOptions common;
   std::string shader, file;
+  std::vector<std::string> include_folders;
 
   int run() const {
     const Output output(common);
     if (!file.empty()) require_writable_file(file);
     if (file.empty() && common.json == "-")
       throw UserError("--json -: the C++ goes to stdout; name a file for one of them");
-    const ShaderSource source = source_of(shader);
+    const ShaderSource source = source_of(shader, include_folders);
     TranslateOptions options;
     options.readable = true;
     const Translation translation = translate(source, options);
@@ -89,6 +91,7 @@ Verb add_translate(CLI::App& app) {
   const auto verb = std::make_shared<TranslateVerb>();
   command->add_option("shader", verb->shader, "fragment shader file, or a technique")->type_name("SHADER")->required();
   command->add_option("-o,--output", verb->file, "C++ file to write (default: stdout)")->type_name("F.cpp");
+  add_include_option(*command, verb->include_folders);
   add_common_options(*command, verb->common);
   return {command, [verb] { return verb->run(); }};
 }

@@ -54,7 +54,7 @@ class Check {
   }
 
   void read() {
-    source_ = load_shader(result_.path, options_.include_folders);
+    source_ = load_fragment_shader(result_.path, options_.include_folders);
     result_.files = source_.files;
     ranges_ = declared_ranges(source_);
     std::string side_file = options_.inputs_file;
@@ -106,10 +106,11 @@ class Check {
       }
       result_.backends.push_back(std::move(check));
     }
-    result_.verdict = compared == 0                     ? Verdict::not_run
-                      : !bits_differ                    ? Verdict::same_bits
-                      : result_.max_ulp <= options_.ulp ? Verdict::same_to_ulp
-                                                        : Verdict::differs;
+    const bool close = options_.ulp && result_.max_ulp <= *options_.ulp;  // +0 and -0 are 0 apart
+    result_.verdict = compared == 0  ? Verdict::not_run
+                      : !bits_differ ? Verdict::same_bits
+                      : close        ? Verdict::same_to_ulp
+                                     : Verdict::differs;
     if (compared == 0)
       result_.message = result_.backends.size() < 2 ? "there is nothing to compare with" : result_.backends[1].not_run;
   }

@@ -21,7 +21,7 @@ struct CheckOptions {
   std::string inputs_file;  // side file; empty: SHADER.inputs where there is one
   std::vector<std::string> include_folders;
   bool make_exact = false;
-  std::uint64_t ulp = 0;  // largest distance that is still called the same
+  std::optional<std::uint64_t> ulp;  // largest distance that is still called the same; none: every bit has to be
   bool timing = true;
 };
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <tuple>
 
@@ -89,8 +90,12 @@ class Generator {
     texture.layers = texture.kind == TextureKind::cube ? 6 : texture.kind == TextureKind::two_d_array ? 4 : 1;
     texture.wrap = texture.kind == TextureKind::two_d ? Wrap::repeat : Wrap::clamp_to_edge;
     double low = 0, high = 1;
-    if (const InputRange* declared = find_range(ranges_, sampler.name); declared && !declared->intervals.empty())
+    if (const InputRange* declared = find_range(ranges_, sampler.name)) {
+      if (declared->intervals.size() != 1)
+        throw UserError(declared->where + sampler.name + " is a sampler: give one LOW..HIGH for all its texels");
+      check(*declared, {});
       std::tie(low, high) = declared->intervals[0];
+    }
     Stream stream(options_.seed, variable, 0);
     texture.texels.resize(std::size_t{kTexels} * kTexels * texture.layers * 4);
     for (float& texel : texture.texels) texel = float(low + (high - low) * stream.real());
@@ -106,6 +111,29 @@ class Generator {
     if (!real && range.kind != InputRange::Kind::interval && range.kind != InputRange::Kind::list)
       fail(" is no float: give its range as LOW..HIGH or {A, B}");
     if (range.kind == InputRange::Kind::unit && type.rows < 2) fail(" is no vector: it cannot be of unit length");
+    for (const double value : range.values) check_value(range, value, type.scalar);
+    for (const auto& [low, high] : range.intervals) {
+      check_value(range, low, type.scalar);
+      check_value(range, high, type.scalar);
+      if (type.scalar == Scalar::boolean && low == high)
+        fail(" is a bool: give 0..1, or {0} or {1} for one of the two");
+    }
+  }
+
+  // The ends of an interval, the values of a list.
+  static void check_value(const InputRange& range, double value, Scalar scalar) {
+    constexpr const char* kHolds[] = {" is a float: give values from -3.40282347e38 to 3.40282347e38, or finite",
+                                      " is an int: give whole numbers from -2147483648 to 2147483647",
+                                      " is a uint: give whole numbers from 0 to 4294967295",
+                                      " is a bool: give 0 and 1 alone"};
+    constexpr double kLeast[] = {0, -2147483648.0, 0, 0}, kMost[] = {0, 2147483647.0, 4294967295.0, 1};
+    const bool good = scalar == Scalar::f32
+                          ? std::isfinite(float(value))
+                          : value >= kLeast[int(scalar)] && value <= kMost[int(scalar)] && value == std::floor(value);
+    if (good) return;
+    char text[32];
+    std::snprintf(text, sizeof text, "%.9g", value);
+    throw UserError(range.where + text + ": " + range.name + kHolds[int(scalar)]);
   }
 
   static std::uint32_t encoded(double value, Scalar scalar) {
@@ -186,9 +214,13 @@ void require_known(const Reflection& reflection, const std::vector<InputRange>& 
   for (const auto& uniform : reflection.uniforms) names.push_back(uniform.name);
   for (const auto& member : reflection.block_members) names.push_back(member.value.name);
   for (const auto& resource : reflection.resources) names.push_back(resource.name);
-  for (const InputRange& range : ranges)
+  for (const InputRange& range : ranges) {
     if (std::find(names.begin(), names.end(), range.name) == names.end())
       throw UserError(range.where + unknown_name_message("input", range.name, names));
+    for (const auto& resource : reflection.resources)
+      if (resource.name == range.name && resource.kind == ResourceKind::uniform_block)
+        throw UserError(range.where + range.name + " is a block: give ranges to its members, by their GLSL path");
+  }
 }
 
 }  // namespace
@@ -208,10 +240,8 @@ ValueTable generate_rows(const Reflection& reflection, const std::vector<InputRa
     table.uniforms.push_back(generator.values(member.value.name, type_of(member.value), variable++, 1, true));
   for (const ReflectedResource& resource : reflection.resources) {
     ++variable;
-    if (resource.kind == ResourceKind::storage_buffer)
-      throw UserError("storage buffer " + resource.name +
-                      " has contents that check cannot make up: use eval with a table");
-    if (resource.kind != ResourceKind::uniform_block) table.textures.push_back(generator.texture(resource, variable));
+    const bool is_block = resource.kind == ResourceKind::uniform_block || resource.kind == ResourceKind::storage_buffer;
+    if (!is_block) table.textures.push_back(generator.texture(resource, variable));
   }
   return table;
 }

@@ -16,8 +16,8 @@ struct GenerateOptions {
 
 // Uniforms keep their values for an eighth of the rows. In the first quarter of the rows one input at a time is
 // special, in the second every component is with a chance of one half, the rest is random (docs/check.md lists what is
-// special). Samplers get 16 x 16 random texels. UserError for a range of a name that the shader does not have, of more
-// components than it has, or that its type cannot hold.
+// special). Samplers get 16 x 16 random texels, storage buffers nothing. UserError "file:line: ..." for a range of a
+// name that the shader does not have, of more components than it has, or with values that its type cannot hold.
 ValueTable generate_rows(const Reflection& reflection, const std::vector<InputRange>& ranges,
                          const GenerateOptions& options);
 

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -62,6 +63,15 @@ InputRange range_of(const std::string& text, const std::string& where) {
   return range;
 }
 
+// Which of two lines for one input is meant, nobody can tell.
+void add(std::vector<InputRange>& ranges, InputRange range, const std::string& instead) {
+  if (const InputRange* first = find_range(ranges, range.name)) {
+    const std::string place = first->where.substr(0, first->where.size() - 2);
+    throw UserError(range.where + "a second range for " + range.name + ", after " + place + ": keep one" + instead);
+  }
+  ranges.push_back(std::move(range));
+}
+
 }  // namespace
 
 std::vector<InputRange> declared_ranges(const ShaderSource& source) {
@@ -80,7 +90,8 @@ std::vector<InputRange> declared_ranges(const ShaderSource& source) {
     const std::size_t comment = line.find("//");
     const std::size_t tag = comment == std::string::npos ? comment : line.find("@input", comment);
     if (tag == std::string::npos || line.find_first_not_of("/ \t", comment) != tag) continue;
-    ranges.push_back(range_of(line.substr(tag + 6), file + ":" + std::to_string(number_of_line) + ": "));
+    add(ranges, range_of(line.substr(tag + 6), file + ":" + std::to_string(number_of_line) + ": "),
+        "; a side file goes before comments");
   }
   return ranges;
 }
@@ -93,7 +104,7 @@ std::vector<InputRange> ranges_in_file(const std::string& path) {
     ++number_of_line;
     line = line.substr(0, line.find('#'));
     if (words_of(line).empty()) continue;
-    ranges.push_back(range_of(line, path + ":" + std::to_string(number_of_line) + ": "));
+    add(ranges, range_of(line, path + ":" + std::to_string(number_of_line) + ": "), "");
   }
   return ranges;
 }

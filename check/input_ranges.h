@@ -28,9 +28,10 @@ struct InputRange {
   std::vector<double> values;  // list
 };
 
-// From the comments of a shader and of what it includes. UserError "file:line: ..." for what cannot be read.
+// From the comments of a shader and of what it includes. UserError "file:line: ..." for what cannot be read, and for a
+// second line for the same name.
 std::vector<InputRange> declared_ranges(const ShaderSource& source);
-// From a side file.
+// From a side file; the same.
 std::vector<InputRange> ranges_in_file(const std::string& path);
 
 // The range of a name, the last one that was declared; where there is none, floats -10..10, ints 0..15.

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/names.h"
+#include "evaluate/declared_at.h"
 
 namespace twinshade {
 namespace {
@@ -16,11 +17,12 @@ std::string file_of(const ShaderSource& shader) { return shader.files.empty() ? 
 class Binder {
  public:
   Binder(const ShaderSource& shader, const Reflection& reflection, const ValueTable& table)
-      : file_(file_of(shader)), reflection_(reflection), table_(table) {}
+      : shader_(shader), file_(file_of(shader)), reflection_(reflection), table_(table) {}
 
   std::vector<BoundRows> bind() {
     if (table_.rows < 1 || table_.rows > kMostTableRows)
       fail("a table has 1 to " + std::to_string(kMostTableRows) + " rows, not " + std::to_string(table_.rows));
+    check_resources();
     check_inputs();
     check_uniforms();
     std::vector<BoundRows> groups;
@@ -35,7 +37,31 @@ class Binder {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const { throw UserError(file_ + ": " + what); }
+  // What does not fit is put right in the table's file, where it has one.
+  [[noreturn]] void fail(const std::string& what) const {
+    if (table_.origin.empty()) throw UserError(file_ + ": " + what);
+    throw UserError(table_.origin + ": " + what + " (shader: " + file_ + ")");
+  }
+
+  // What a table has no values for at all: no correction of it helps.
+  void check_resources() const {
+    const bool has_buffers =
+        std::any_of(table_.buffers.begin(), table_.buffers.end(), [](const Buffer& b) { return b.storage; });
+    for (const ReflectedResource& resource : reflection_.resources) {
+      if (resource.kind == ResourceKind::uniform_block) continue;
+      const bool is_buffer = resource.kind == ResourceKind::storage_buffer;
+      if (is_buffer ? has_buffers : !table_.textures.empty()) continue;
+      const std::string name = resource.name.substr(0, resource.name.find('['));
+      const std::string where = declared_at(shader_, name, is_buffer ? "buffer" : "sampler") + ": ";
+      if (is_buffer)
+        throw UserError(where + "storage buffer " + name +
+                        ": neither eval's tables nor check's rows have contents for it: hand what is tested its data "
+                        "as inputs or uniforms, in a function that both shaders include");
+      throw UserError(where + "texture " + name +
+                      ": eval's tables have no textures: use check, which makes texels up, or hand what is tested the "
+                      "texel as an input, in a function that both shaders include");
+    }
+  }
 
   void check_rows(const char* kind, const Values& values, bool one_is_enough) const {
     const std::size_t components = values.type.components();
@@ -191,6 +217,7 @@ class Binder {
     group.resources.buffers.push_back(std::move(buffer));
   }
 
+  const ShaderSource& shader_;
   const std::string file_;
   const Reflection& reflection_;
   const ValueTable& table_;

@@ -14,8 +14,9 @@ struct BoundRows {
   Bundle resources;               // uniforms, textures, buffers
 };
 
-// UserError, naming the shader's file, for names that the shader does not have (with the nearest), that the table
-// lacks, for types that do not match and row counts that are wrong.
+// UserError, naming the table's origin or else the shader's file, for names that the shader does not have (with the
+// nearest), that the table lacks, for types that do not match and row counts that are wrong; naming the line of the
+// declaration, for storage buffers and textures where the table has none at all.
 std::vector<BoundRows> bind_table(const ShaderSource& shader, const Reflection& reflection, const ValueTable& table);
 
 ValueType type_of(const ReflectedVariable& variable);

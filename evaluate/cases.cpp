@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/error.h"
 #include "base/names.h"
@@ -26,6 +27,20 @@ std::vector<std::string> every_type_name() {
   return names;
 }
 
+// A double that becomes the float nearest to the number that it was rounded from: where it lies half-way between two
+// floats and the number does not, it moves one step to the number's side.
+double towards(double value, float nearest) {
+  const auto rounded = float(value);
+  return rounded == nearest ? value : std::nextafter(value, double(nearest));
+}
+
+// value: what the text was read as; format: its.
+double rounded_once(double value, const std::string& text, std::chars_format format = std::chars_format::general) {
+  float nearest = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), nearest, format);
+  return error == std::errc() && end == text.data() + text.size() ? towards(value, nearest) : value;
+}
+
 // "inf", "-inf", "nan", and hex floats as C writes them: what JSON's numbers cannot say.
 std::optional<double> number_in_text(std::string_view text) {
   const bool negative = text.substr(0, 1) == "-";
@@ -38,8 +53,72 @@ std::optional<double> number_in_text(std::string_view text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::hex);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return sign * value;
+  return sign * rounded_once(value, std::string(text), std::chars_format::hex);
 }
+
+// JSON as a tree whose decimals are rounded_once. Of what is malformed it keeps what is to be said.
+class TreeBuilder final : public nlohmann::json_sax<Json> {
+ public:
+  TreeBuilder(std::string_view text, const std::string& origin) : text_(text), origin_(origin) {}
+
+  Json tree;
+  std::string error;
+
+  bool null() override { return add(nullptr); }
+  bool boolean(bool value) override { return add(value); }
+  bool number_integer(Json::number_integer_t value) override { return add(value); }
+  bool number_unsigned(Json::number_unsigned_t value) override { return add(value); }
+  bool number_float(double value, const std::string& text) override { return add(rounded_once(value, text)); }
+  bool string(std::string& value) override { return add(std::move(value)); }
+  bool binary(Json::binary_t&) override { return false; }  // JSON has none
+  bool start_object(std::size_t) override { return open(Json::object()); }
+  bool start_array(std::size_t) override { return open(Json::array()); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+  bool key(std::string& name) override {
+    key_ = name;
+    return true;
+  }
+  bool parse_error(std::size_t position, const std::string& token, const nlohmann::detail::exception& e) override {
+    const std::string_view before = text_.substr(0, position);
+    error = origin_ + ":" + std::to_string(1 + std::count(before.begin(), before.end(), '\n')) + ": ";
+    if (e.id == 406) {  // out_of_range
+      error += token + " is beyond what a double holds: write \"inf\" where infinity is meant";
+      return false;
+    }
+    // "[json.exception.parse_error.101] parse error at line 3, column 5: ..."
+    const std::string what = e.what();
+    const std::size_t line = what.find("line "), colon = what.find(": ", line);
+    const bool placed = line != std::string::npos && colon != std::string::npos;
+    error += "malformed JSON: " + what.substr(placed ? colon + 2 : what.find("] ") + 2);
+    return false;
+  }
+
+ private:
+  Json& place(Json&& value) {
+    if (open_.empty()) return tree = std::move(value);
+    Json& parent = *open_.back();
+    if (parent.is_array()) return parent.emplace_back(std::move(value));
+    return parent[key_] = std::move(value);
+  }
+  bool add(Json&& value) {
+    place(std::move(value));
+    return true;
+  }
+  bool open(Json&& value) {
+    open_.push_back(&place(std::move(value)));
+    return true;
+  }
+  bool close() {
+    open_.pop_back();
+    return true;
+  }
+
+  const std::string_view text_;
+  const std::string& origin_;
+  std::vector<Json*> open_;  // what is not closed yet, the outermost first; no sibling moves one while it is open
+  std::string key_;
+};
 
 class CasesReader {
  public:
@@ -53,6 +132,7 @@ class CasesReader {
     const Json& values = file["values"];
     require_keys(values, "values", {"inputs", "uniforms", "outputs"});
     Cases cases;
+    cases.table.origin = origin_;
     for (Column& column : columns(values, "inputs")) cases.table.inputs.push_back(std::move(column.values));
     for (Column& column : columns(values, "uniforms")) cases.table.uniforms.push_back(std::move(column.values));
     for (Column& column : columns(values, "outputs"))
@@ -72,18 +152,9 @@ class CasesReader {
   [[noreturn]] void fail(const std::string& what) const { throw UserError(origin_ + ": " + what); }
 
   Json parse(std::string_view text) const {
-    try {
-      return Json::parse(text);
-    } catch (const Json::exception& error) {
-      // "[json.exception.parse_error.101] parse error at line 3, column 5: ..."
-      const std::string what = error.what();
-      const std::size_t line = what.find("line "), column = what.find(", column", line),
-                        colon = what.find(": ", column);
-      if (line == std::string::npos || column == std::string::npos || colon == std::string::npos)
-        fail("malformed JSON: " + what.substr(what.find("] ") + 2));
-      throw UserError(origin_ + ":" + what.substr(line + 5, column - line - 5) +
-                      ": malformed JSON: " + what.substr(colon + 2));
-    }
+    TreeBuilder builder(text, origin_);
+    if (!Json::sax_parse(text, &builder)) throw UserError(builder.error);
+    return std::move(builder.tree);
   }
 
   void require_keys(const Json& object, const std::string& what, const std::vector<std::string>& keys) const {
@@ -152,29 +223,43 @@ class CasesReader {
     }
     const double number = number_of(value, where);
     values.doubles.push_back(number);
-    values.bits.push_back(bits_of(number, values.type.scalar, where));
+    values.bits.push_back(bits_of(number, values.type.scalar, value, where));
   }
 
   double number_of(const Json& value, const std::string& where) const {
     if (value.is_boolean()) return value.get<bool>() ? 1 : 0;
+    if (value.is_number_unsigned())
+      return towards(value.get<double>(), float(value.get_ref<const Json::number_unsigned_t&>()));
+    if (value.is_number_integer())
+      return towards(value.get<double>(), float(value.get_ref<const Json::number_integer_t&>()));
     if (value.is_number()) return value.get<double>();
     if (value.is_string())
       if (const std::optional<double> number = number_in_text(value.get_ref<const std::string&>())) return *number;
-    fail(where + ": " + value.dump(-1, ' ', false, Json::error_handler_t::replace).substr(0, 40) +
+    fail(where + ": " + shown(value) +
          " is no value: use numbers, true, false, or the strings \"inf\", \"-inf\", \"nan\", \"0x1.8p+1\"");
   }
 
-  std::uint32_t bits_of(double value, Scalar scalar, const std::string& where) const {
+  // As it was written, or shorter.
+  static std::string shown(const Json& value) {
+    if (value.is_number_float()) {
+      char text[32];
+      const auto [end, error] = std::to_chars(text, text + sizeof text, value.get<double>());
+      return {text, end};
+    }
+    return value.dump(-1, ' ', false, Json::error_handler_t::replace).substr(0, 40);
+  }
+
+  std::uint32_t bits_of(double value, Scalar scalar, const Json& written, const std::string& where) const {
     if (scalar == Scalar::f32) {
       const float rounded = float(value);
       if (std::isinf(rounded) && !std::isinf(value))
-        fail(where + ": " + std::to_string(value) + " is beyond what a float holds");
+        fail(where + ": " + shown(written) + " is beyond what a float holds: write \"inf\" where infinity is meant");
       return std::bit_cast<std::uint32_t>(rounded);
     }
     const double least = scalar == Scalar::i32 ? -2147483648.0 : 0;
     const double most = scalar == Scalar::i32 ? 2147483647.0 : scalar == Scalar::u32 ? 4294967295.0 : 1;
     if (!(value >= least && value <= most) || value != std::floor(value))
-      fail(where + ": " + Json(value).dump() + " is no " + type_name({scalar, 1, 1, 0}));
+      fail(where + ": " + shown(written) + " is no " + type_name({scalar, 1, 1, 0}));
     return scalar == Scalar::i32 ? std::bit_cast<std::uint32_t>(std::int32_t(value)) : std::uint32_t(value);
   }
 

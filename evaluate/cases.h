@@ -30,8 +30,9 @@ struct Cases {
   Tolerance tolerance;
 };
 
-// UserError "origin: ..." for malformed JSON (with its line), unknown keys and types (with the nearest), values that do
-// not fit their type, lists of unequal length. Whether names and types are the shader's, Evaluator::run and
+// Decimals, hex floats and whole numbers are rounded to float once; doubles hold what the file says to one step of a
+// double. UserError "origin: ..." for malformed JSON (with its line), unknown keys and types (with the nearest), values
+// that do not fit their type, lists of unequal length. Whether names and types are the shader's, Evaluator::run and
 // check_expected say.
 Cases parse_cases(std::string_view json, const std::string& origin);
 

@@ -52,6 +52,7 @@ struct ValueTable {
   std::vector<Values> uniforms;
   std::vector<Texture> textures;  // by sampler name
   std::vector<Buffer> buffers;    // storage buffers, and uniform blocks given as bytes
+  std::string origin = {};        // the file that it was read from, which messages blame; empty: none
 };
 
 inline constexpr std::size_t kMostTableRows = 1048576;

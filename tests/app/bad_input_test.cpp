@@ -88,6 +88,13 @@ TEST_CASE("malformed options are refused") {
   check_refused({"render", "quad", "--triangles", "0"}, {"--triangles"});
   check_refused({"render", "quad", "--triangles", "200000000"}, {"--triangles", "134217728"});
   check_refused({"render", "quad", "--seed", "-1"}, {"--seed"});
+  for (const char* ulp : {"-1", "x", "1.5", "4294967296", "18446744073709551615"})
+    check_refused({"check", "a.frag", "--ulp", ulp}, {std::string("--ulp ") + ulp, "0 to 4294967295"});
+  for (const char* rows : {"-1", "0", "-18446744073709551615", "1048577"})
+    check_refused({"check", "a.frag", "--rows", rows}, {std::string("--rows ") + rows, "1 to 1048576"});
+  check_refused({"eval", "a.frag", "--threads", "-1"}, {"--threads", "1 to 1024"});
+  check_refused({"experiment", "sphere-map-mse", "--samples", "-1"}, {"--samples"});
+  check_refused({"experiment", "sphere-map-mse", "--map-width", "-1"}, {"-1", "4096"});
   check_refused({"render", "quad", "--tile", "48"}, {"--tile", "16, 32, 64 or 128"});
   check_refused({"render", "quad", "--lanes", "32"}, {"--lanes", "4, 8 or 16"});
   check_refused({"render", "quad", "--lanes", "4", "--number", "scalar"}, {"--lanes", "--number"});

@@ -128,6 +128,25 @@ TEST_CASE("a list of backends leaves the shader behind it to the verb; ES with g
   CHECK(result["counterexample"]["first_line"]["line"] == 5);
 }
 
+TEST_CASE("zeros of different sign differ, unless --ulp is given: then they are equal") {
+  if (const std::string reason = why_missing("egl"); !reason.empty()) {
+    MESSAGE("not tested: " << reason);
+    return;
+  }
+  const Folder folder;
+  const std::string shader = folder.file("zero.frag",
+                                         "// @input x {-1.0, 2.0}\nin float x; out float y;\n"
+                                         "void main() { y = x * 0.0; }\n");  // llvmpipe folds it to +0
+  const Run strict = run_twinshade(arguments(shader));
+  CHECK(strict.code == 1);
+  CHECK(strict.json()["shaders"][0]["verdict"] == "differs");
+  CHECK(strict.json()["shaders"][0]["max_ulp"] == 0);
+  CHECK(strict.err.find("the sign of zero alone") != std::string::npos);
+  const Run given = run_twinshade(arguments(shader, {"--ulp", "0"}));
+  CHECK(given.code == 0);
+  CHECK(given.json()["shaders"][0]["verdict"] == "same to 0 ULP");
+}
+
 TEST_CASE("wrong shaders, ranges and files are refused with their place, the others are checked all the same") {
   const Folder folder;
   const std::string bad = folder.file("bad.frag", "out vec4 color;\nvoid main() {\n  color = nothing;\n}\n");

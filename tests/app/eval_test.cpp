@@ -79,6 +79,67 @@ TEST_CASE("a shader that does not compile ends the run, and services are told wh
   CHECK_MESSAGE(run.err.find("a.frag:2: ") != std::string::npos, run.err);
   CHECK_MESSAGE(run.out.find("::error file=" + shader + ",line=2") == 0, run.out);
   CHECK(read_file(junit).find("tests=\"1\" failures=\"0\" errors=\"1\"") != std::string::npos);
+  const std::string written = folder / "out.json";
+  CHECK(run_twinshade({"eval", shader, "--cases", json, "--on", "cpu", "--json", written}).code == 2);
+  const auto results = nlohmann::json::parse(read_file(written));
+  REQUIRE(results["cases"].size() == 1);
+  CHECK(results["cases"][0]["pass"] == false);
+  CHECK(results["cases"][0]["error"].get<std::string>().find("a.frag:2: ") != std::string::npos);
+}
+
+TEST_CASE("what is wrong with the cases is said of their file, not of the shader's") {
+  const Folder folder;
+  const std::string shader = folder.file("a.frag", kShader);
+  std::string other = cases("[[1, 2], [4, 6]]");
+  other.replace(other.find("gain"), 4, "gian");
+  const std::string json = folder.file("b.json", other);
+  const Run run = run_twinshade({"eval", shader, "--cases", json, "--on", "cpu", "--annotate", "github"});
+  CHECK(run.code == 2);
+  CHECK_MESSAGE(
+      run.err == "twinshade: " + json + ": uniform gain (float) has no value in the table (shader: " + shader + ")\n",
+      run.err);
+  CHECK_MESSAGE(run.out.find("::error file=" + json + ",title=a") == 0, run.out);
+}
+
+TEST_CASE("eval looks for included files in the folders that it is given, for one shader and for many") {
+  const Folder folder, common;
+  common.file("part.glsl", "float twice(float x) { return x + x; }\n");
+  const std::string shader = folder.file("a.frag",
+                                         "#include \"part.glsl\"\nin float x; out float y;\n"
+                                         "void main() { y = twice(x); }\n");
+  const std::string json = folder.file("a.json", R"({"values": {
+      "inputs": [{"name": "x", "type": "float", "values": [2]}], "outputs": [{"name": "y", "type": "float", "values": [4]}]}})");
+  const std::string found = common / ".";
+  CHECK(run_twinshade({"eval", shader, "--cases", json, "--on", "cpu", "-I", found}).code == 0);
+  CHECK(run_twinshade({"eval", folder / ".", "--on", "cpu", "--include", found}).code == 0);
+  CHECK(run_twinshade({"translate", shader, "-I", found}).code == 0);
+  check_refused({"eval", shader, "--cases", json, "--on", "cpu"}, "a.frag:1: ");
+  for (const std::vector<std::string>& verb :
+       {std::vector<std::string>{"eval", shader, "--cases", json}, {"translate", shader}, {"check", shader}}) {
+    std::vector<std::string> arguments = verb;
+    arguments.insert(arguments.end(), {"-I", found, "-I", folder / "nosuch"});
+    check_refused(arguments, "--include " + folder / "nosuch" + ": there is no such folder");
+  }
+}
+
+TEST_CASE("textures and storage buffers, which a table cannot give, are refused at their declaration") {
+  const Folder folder;
+  const std::string json =
+      folder.file("a.json", R"({"values": {"inputs": [{"name": "x", "type": "float", "values": [1]}]}})");
+  const std::string buffer =
+      folder.file("buffer.frag",
+                  "// Data is read\nin float x;\nlayout(std430) readonly buffer Data { int n; float "
+                  "data[]; };\nout float y;\nvoid main() { y = x + data[n]; }\n");
+  check_refused({"eval", buffer, "--cases", json, "--on", "cpu"}, "buffer.frag:3: storage buffer Data: neither eval's");
+  const std::string texture = folder.file("texture.frag",
+                                          "in float x; out vec4 y;\nuniform sampler2D map;\n"
+                                          "void main() { y = texture(map, vec2(x)); }\n");
+  check_refused({"eval", texture, "--cases", json, "--on", "cpu"},
+                "texture.frag:2: texture map: eval's tables have no");
+  const Run check = run_twinshade({"check", buffer, "--on", "cpu,egl", "--no-timing", "--json", "-"});
+  CHECK(check.code == 2);
+  CHECK(check.json()["shaders"][0]["message"].get<std::string>().find("buffer.frag:3: storage buffer Data") !=
+        std::string::npos);
 }
 
 TEST_CASE("eval runs a folder: a shader that is wrong spoils no other") {
@@ -100,6 +161,32 @@ TEST_CASE("eval runs a folder: a shader that is wrong spoils no other") {
   CHECK(run.err.find("4 shaders: 1 passed, 1 failed, 2 with errors") != std::string::npos);
 }
 
+TEST_CASE("a file of a folder without its partner is an error of its own, and the others run all the same") {
+  const Folder folder;
+  const std::string junit = folder / "out.xml";
+  folder.file("a.frag", kShader);
+  folder.file("a.json", cases("[[1, 2], [4, 6]]"));
+  folder.file("lonely.frag", kShader);
+  folder.file("alone.json", cases("[[1, 2], [4, 6]]"));
+  const Run run = run_twinshade({"eval", folder / ".", "--on", "cpu", "--json", "-", "--junit", junit});
+  CHECK(run.code == 2);
+  const auto all = run.json()["cases"];
+  REQUIRE(all.size() == 3);
+  CHECK(all[0]["pass"] == true);
+  CHECK(all[1]["error"].get<std::string>().find("alone.json has no alone.frag beside it") != std::string::npos);
+  CHECK(all[2]["error"].get<std::string>().find("lonely.frag has no lonely.json beside it") != std::string::npos);
+  CHECK(read_file(junit).find("tests=\"3\" failures=\"0\" errors=\"2\"") != std::string::npos);
+}
+
+TEST_CASE("number types are refused with the list that --help has") {
+  const Folder folder;
+  const std::string shader = folder.file("a.frag", kShader), json = folder.file("a.json", cases("[[1, 2], [4, 6]]"));
+  check_refused({"eval", shader, "--cases", json, "--number", "quad"},
+                "known: lanes4, lanes8, lanes16, lanes, scalar, float, double, float64");
+  CHECK(run_twinshade({"eval", "--help"}).out.find("lanes4|lanes8|lanes16|lanes|scalar|float|double|float64") !=
+        std::string::npos);
+}
+
 TEST_CASE("eval refuses what it cannot run in one line") {
   const Folder folder, empty;
   const std::string shader = folder.file("a.frag", kShader), json = folder.file("a.json", cases("[[1, 2], [4, 6]]"));
@@ -115,8 +202,6 @@ TEST_CASE("eval refuses what it cannot run in one line") {
        folder.file("b.json", R"({"values": {"inputs": [{"name": "vu", "type": "vec2", "values": [[1, 2]]}]}})"), "--on",
        "cpu"},
       "input n (int) has no values in the table");
-  empty.file("lonely.frag", kShader);
-  check_refused({"eval", empty / "."}, "lonely.frag has no lonely.json beside it");
 }
 
 TEST_CASE("a backend that cannot run is named with its reason, and the others' results stay") {

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 using twinshade::github_annotations;
+using twinshade::junit_xml;
 using twinshade::JUnitCase;
 using Result = JUnitCase::Result;
 
@@ -15,6 +16,24 @@ TEST_CASE("an annotation stands at the line that the message begins with, else a
         "::error file=b.frag,title=b on egl::2 of 3 rows differ\n");
   CHECK(github_annotations({{"c", Result::failed, "differs", "", 0, "c.frag", 7}}) ==
         "::error file=c.frag,line=7,title=c::differs\n");
+}
+
+TEST_CASE("what no XML document may hold becomes U+FFFD, all else stays") {
+  const auto written = [](const std::string& message) {
+    const std::string xml = junit_xml("s", {{"n", Result::error, message, "", 0, "", 0}});
+    const std::size_t from = xml.find("message=\"") + 9;
+    return xml.substr(from, xml.find('"', from) - from);
+  };
+  const std::string bad = "\xef\xbf\xbd";
+  CHECK(written("caf\xe9(x)") == "caf" + bad + "(x)");
+  CHECK(written("caf\xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80") == "caf\xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80");
+  CHECK(written("\xc0\x80") == bad + bad);            // too long
+  CHECK(written("\xed\xa0\x80") == bad + bad + bad);  // a surrogate
+  CHECK(written("\xef\xbf\xbf") == bad + bad + bad);  // U+FFFF
+  CHECK(written("\xf4\x90\x80\x80") == bad + bad + bad + bad);
+  CHECK(written("end \xe2\x82") == "end " + bad + bad);
+  CHECK(written("a\x01\x7f\tb\r\n") == "a" + bad + "\x7f\tb&#13;\n");
+  CHECK(written("<a & \"b\">") == "&lt;a &amp; &quot;b&quot;&gt;");
 }
 
 TEST_CASE("what would end a workflow command is escaped") {

@@ -90,4 +90,52 @@ TEST_CASE("a range that cannot be meant is refused at its line") {
                   UserError);
 }
 
+TEST_CASE("values that a type cannot hold are refused at their line") {
+  const auto said = [](Scalar scalar, const std::string& range) -> std::string {
+    try {
+      generate_rows(reflection_of("x", 1, scalar), declared_ranges(shader("\n// @input x " + range)), {16, 1});
+    } catch (const UserError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string of_int = ": x is an int: give whole numbers from -2147483648 to 2147483647";
+  CHECK(said(Scalar::i32, "0.5..2") == "s.frag:2: 0.5" + of_int);
+  CHECK(said(Scalar::i32, "{1.5}") == "s.frag:2: 1.5" + of_int);
+  CHECK(said(Scalar::i32, "5.5..5.7") == "s.frag:2: 5.5" + of_int);
+  CHECK(said(Scalar::i32, "3e9..4e9") == "s.frag:2: 3e+09" + of_int);
+  CHECK(said(Scalar::u32, "-1..5").find("s.frag:2: -1: x is a uint") == 0);
+  CHECK(said(Scalar::f32, "0..1e99").find("s.frag:2: 1e+99: x is a float") == 0);
+  CHECK(said(Scalar::f32, "{1e39}").find("s.frag:2: 1e+39: x is a float") == 0);
+  CHECK(said(Scalar::boolean, "0..2").find("s.frag:2: 2: x is a bool") == 0);
+  CHECK(said(Scalar::boolean, "1..1").find("s.frag:2: x is a bool") == 0);
+  CHECK(said(Scalar::i32, "-2147483648..2147483647") == "");
+  CHECK(said(Scalar::u32, "3e9..4294967295") == "");
+  CHECK(said(Scalar::f32, "-3.40282347e38..3.40282347e38") == "");
+  for (const std::string range : {"0..1", "{0, 1}", "{1}"}) CHECK(said(Scalar::boolean, range) == "");
+}
+
+TEST_CASE("samplers take one interval of floats, blocks none") {
+  Reflection reflection;
+  reflection.resources.resize(2);
+  reflection.resources[0].name = "map";
+  reflection.resources[0].kind = ResourceKind::sampler_2d;
+  reflection.resources[1].name = "Block";
+  reflection.resources[1].kind = ResourceKind::uniform_block;
+  for (const std::string bad : {"map {1}", "map unit", "map 0..1 0..1", "map 0..1e99", "Block 0..1"}) {
+    CAPTURE(bad);
+    CHECK_THROWS_WITH_AS(generate_rows(reflection, declared_ranges(shader("// @input " + bad)), {}),
+                         doctest::Contains("s.frag:1: "), UserError);
+  }
+  const ValueTable table = generate_rows(reflection, declared_ranges(shader("// @input map 5..6")), {});
+  REQUIRE(table.textures.size() == 1);
+  for (const float texel : table.textures[0].texels) CHECK((texel >= 5 && texel <= 6));
+}
+
+TEST_CASE("a second line for the same input is refused, with the place of the first") {
+  CHECK_THROWS_WITH_AS(declared_ranges(shader("// @input x 0..1\n\n// @input x 0..2")),
+                       "s.frag:3: a second range for x, after s.frag:1: keep one; a side file goes before comments",
+                       UserError);
+}
+
 }  // namespace twinshade

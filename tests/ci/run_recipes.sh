@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Runs the steps of docs/ci/ as the services would, in a project of two shaders: once as they are, once with a wrong
-# factor in one. Only paths are changed (nothing is written outside WORK), and packages are not installed.
+# factor in one; then after TWINSHADE_REF has moved. Only paths are changed (nothing is written outside WORK), and
+# packages are not installed.
 #   run_recipes.sh SOURCE WORK
 set -euo pipefail
 source=$(realpath "$1") work=$2
@@ -41,6 +42,16 @@ new_project() {
   mkdir -p "$1"
   cp -r "$here/shaders" "$1/shaders"
 }
+# A commit behind the one that was built, and a cmake that only tells of it: with exit code 7.
+move_branch() {
+  local tree
+  tree=$(git -C "$work/twinshade.git" rev-parse 'recipe^{tree}')
+  git -C "$work/twinshade.git" update-ref refs/heads/recipe \
+    "$(git -C "$work/twinshade.git" -c user.name=test -c user.email=test@example.com commit-tree -m moved -p recipe "$tree")"
+  mkdir -p "$work/stub"
+  printf '#!/bin/sh\nexit 7\n' >"$work/stub/cmake"
+  chmod +x "$work/stub/cmake"
+}
 break_project() { sed -i 's/0\.5/0.25/' "$1/shaders/tests/halve.frag"; }
 
 echo "GitLab"
@@ -75,4 +86,12 @@ expect 0 github-test bash "$work/step.sh"
 break_project "$work/github"
 expect 1 github-broken bash "$work/step.sh"
 grep -q '^::error file=shaders/tests/halve' "$work/github-broken.log" || fail "GitHub: no annotation"
+echo "A branch that has moved"
+move_branch
+rm -rf "$work/clone"
+expect 7 gitlab-moved env PATH="$work/stub:$PATH" bash "$work/gitlab.sh"
+rm -rf "$work/clone"
+step "Install Twinshade"
+sed -i '1s#PATH=\$(#PATH='"$work/stub"':$(#' "$work/step.sh"
+expect 7 github-moved bash "$work/step.sh"
 echo "both recipes pass and fail as they should"

@@ -61,6 +61,28 @@ TEST_CASE("values are read as GLSL takes them") {
   CHECK(cases.tolerance.rel == 0.5);
 }
 
+TEST_CASE("decimals, hex floats and whole numbers become the nearest float, rounded once") {
+  const auto bits = [](const std::string& number) {
+    return parse_cases(input("float", "[" + number + "]"), "f.json").table.inputs[0].bits.at(0);
+  };
+  // Half-way between 1 and the next float, and next to it: as doubles all three are one.
+  CHECK(bits("1.000000059604644775390625") == 0x3f800000u);
+  CHECK(bits("1.00000005960464477539062501") == 0x3f800001u);
+  CHECK(bits("-1.00000005960464477539062501") == 0xbf800001u);
+  CHECK(bits("1.00000005960464477539062499") == 0x3f800000u);
+  CHECK(bits("1.00000017881393432617187499") == 0x3f800001u);  // to even it would be ...2
+  CHECK(bits("1.000000178813934326171875") == 0x3f800002u);
+  CHECK(bits("\"0x1.000001000000000001p0\"") == 0x3f800001u);
+  CHECK(bits("\"-0x1.000001000000000001p0\"") == 0xbf800001u);
+  CHECK(bits("9007199791611905") == 0x5a000001u);  // 2^53 + 2^29 + 1
+  CHECK(bits("-9007199791611905") == 0xda000001u);
+  CHECK(bits("9007199791611904") == 0x5a000000u);
+  CHECK(bits("3.4028235677973366e38") == 0x7f7fffffu);  // below the half-way to what would be 2^128
+  CHECK(bits("0.1") == 0x3dcccccdu);
+  CHECK(bits("1e-50") == 0);
+  CHECK(bits("-0.0") == 0x80000000u);
+}
+
 TEST_CASE("what is wrong with cases is said in one line") {
   CHECK(refusal("{\n\"values\": {\n  \"inputs\": [,]\n}}").find("f.json:3: malformed JSON: ") == 0);
   CHECK(refusal("").find("f.json:1: malformed JSON: ") == 0);
@@ -74,10 +96,15 @@ TEST_CASE("what is wrong with cases is said in one line") {
   CHECK(refusal(input("vec3", "[[1, 2]]")) ==
         "f.json: values.inputs[0] (x), row 0: vec3 has 3 components, but 2 are given");
   CHECK(refusal(input("int", "[1, 1.5]")) == "f.json: values.inputs[0] (x), row 1: 1.5 is no int");
-  CHECK(refusal(input("uint", "[-1]")) == "f.json: values.inputs[0] (x), row 0: -1.0 is no uint");
-  CHECK(refusal(input("int", "[\"nan\"]")).find("is no int") != std::string::npos);
-  CHECK(refusal(input("float", "[1e60]")).find("beyond what a float holds") != std::string::npos);
-  CHECK(refusal(input("float", "[1e999]")).find("f.json: malformed JSON") == 0);
+  CHECK(refusal(input("uint", "[-1]")) == "f.json: values.inputs[0] (x), row 0: -1 is no uint");
+  CHECK(refusal(input("int", "[-1e10]")) == "f.json: values.inputs[0] (x), row 0: -1e+10 is no int");
+  CHECK(refusal(input("int", "[\"nan\"]")) == "f.json: values.inputs[0] (x), row 0: \"nan\" is no int");
+  CHECK(refusal(input("bool", "[2]")) == "f.json: values.inputs[0] (x), row 0: 2 is no bool");
+  CHECK(
+      refusal(input("float", "[1e39]")) ==
+      "f.json: values.inputs[0] (x), row 0: 1e+39 is beyond what a float holds: write \"inf\" where infinity is meant");
+  CHECK(refusal(input("float", "[1,\n1e999]")) ==
+        "f.json:2: 1e999 is beyond what a double holds: write \"inf\" where infinity is meant");
   CHECK(refusal(input("float", "[{}]")).find("row 0: {} is no value") != std::string::npos);
   CHECK(refusal(input("float", "[null]")).find("row 0: null is no value") != std::string::npos);
   CHECK(refusal(input("float", std::string(100000, '[') + std::string(100000, ']'))).find("lists in lists") !=

@@ -148,6 +148,23 @@ TEST_CASE("textures and storage buffers are read by name") {
   CHECK(value_at(rows.outputs[0], 1, 1) == doctest::Approx(3.00392));
 }
 
+TEST_CASE("textures and buffers that a table does not have are refused where they are declared") {
+  Evaluator evaluator;
+  const ValueTable table{1, {floats("x", "float", {0})}, {}, {}, {}};
+  const auto refusal = [&](const std::string& text) {
+    return error_of([&] { evaluator.run(fragment("in float x; out float r;\n" + text), table, {}); });
+  };
+  CHECK(refusal("// buffer List\n/* buffer List\n */ struct S { float List; };\nlayout(std430) readonly buffer List { "
+                "float list[]; } it;\nvoid main() { r = it.list[0]; }\n")
+            .find("test.frag:5: storage buffer List: ") == 0);
+  CHECK(refusal("#line 40\nuniform sampler2D first,\n  maps[2];\n"
+                "void main() { r = texture(first, vec2(x)).x + texture(maps[1], vec2(x)).x; }\n")
+            .find("test.frag:40: texture first: ") == 0);
+  CHECK(
+      refusal("uniform float k;\n\nuniform highp\n  samplerCube cube;\nvoid main() { r = texture(cube, vec3(x)).x; }\n")
+          .find("test.frag:5: texture cube: ") == 0);
+}
+
 TEST_CASE("of a denormal and another number min and max give zero where it is chosen, here as on llvmpipe") {
   const ShaderSource shader = fragment(
       "in float x; in float y; out vec3 r;\n"
@@ -238,6 +255,11 @@ TEST_CASE("what does not fit is refused by name") {
   CHECK(refusal({uv}, {ints("scale", "int", {1})}) ==
         "test.frag: uniform scale is float in the shader, but int in the table");
   CHECK(refusal({uv}, {scale}, 2) == "test.frag: input uv has 1 rows of vec2, but the table has 2");
+
+  ValueTable of_file{1, {uv}, {}, {}, {}};
+  of_file.origin = "cases.json";
+  CHECK(error_of([&] { evaluator.run(shader, of_file, {}); }) ==
+        "cases.json: uniform scale (float) has no value in the table (shader: test.frag)");
 
   std::string many = "in float x;\n", body;
   for (int i = 0; i < 9; ++i) {

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/names.h"
-#include "evaluate/declared_at.h"
+#include "cpu_shaders/translate/source_lines.h"
 
 namespace twinshade {
 namespace {
@@ -52,7 +52,7 @@ class Binder {
       const bool is_buffer = resource.kind == ResourceKind::storage_buffer;
       if (is_buffer ? has_buffers : !table_.textures.empty()) continue;
       const std::string name = resource.name.substr(0, resource.name.find('['));
-      const std::string where = declared_at(shader_, name, is_buffer ? "buffer" : "sampler") + ": ";
+      const std::string where = SourceLines(shader_).declaration(name).text() + ": ";
       if (is_buffer)
         throw UserError(where + "storage buffer " + name +
                         ": neither eval's tables nor check's rows have contents for it: hand what is tested its data "

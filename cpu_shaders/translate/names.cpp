@@ -172,8 +172,9 @@ std::string NameTable::declare(const std::string& wanted) {
   // Two underscores in a row are reserved in C++ as in GLSL, where they only warn.
   for (std::size_t at = name.find("__"); at != std::string::npos; at = name.find("__")) name.erase(at, 1);
   if (name[0] == '_') name.insert(0, "x");
-  // Aliases of uniform types begin with uniform_.
-  if (name.rfind("uniform_", 0) == 0 || may_be_a_macro(name) || taken(name)) {
+  // Aliases of uniform types begin with uniform_; neither they nor macros end in an underscore.
+  const bool may_stand_for_another = name.back() != '_' && (name.rfind("uniform_", 0) == 0 || may_be_a_macro(name));
+  if (may_stand_for_another || taken(name)) {
     const std::string base = name + '_';
     name = base;
     for (int k = 2; taken(name); ++k) name = base + std::to_string(k);

@@ -29,16 +29,39 @@ bool read_line_directive(const std::string& text, int& number, std::string& file
   return true;
 }
 
+// The line without comments; within_block: whether it begins, and then whether it ends, within /* */.
+std::string code_of(const std::string& line, bool& within_block) {
+  std::string code;
+  for (std::size_t at = 0; at < line.size();) {
+    if (within_block) {
+      const std::size_t end = line.find("*/", at);
+      if (end == line.npos) return code;
+      within_block = false;
+      code += ' ';
+      at = end + 2;
+    } else if (line.compare(at, 2, "//") == 0) {
+      return code;
+    } else if (line.compare(at, 2, "/*") == 0) {
+      within_block = true;
+      at += 2;
+    } else {
+      code += line[at++];
+    }
+  }
+  return code;
+}
+
 }  // namespace
 
 SourceLines::SourceLines(const ShaderSource& source) {
   std::istringstream lines(source.text);
   std::string text, file = source.files.empty() ? source.name : source.files[0];
   int number = 0;
+  bool within_block = false;
   while (std::getline(lines, text)) {
     ++number;
     if (read_line_directive(text, number, file)) continue;
-    lines_.push_back({file, trimmed(text), number});
+    lines_.push_back({file, trimmed(text), code_of(text, within_block), number});
     index_[{file, number}] = lines_.size() - 1;
   }
 }
@@ -57,9 +80,9 @@ std::size_t SourceLines::order(const Position& position) const {
 Position SourceLines::declaration(const std::string& name) const {
   const Line* mention = nullptr;
   for (const Line& line : lines_) {
-    if (!has_word(line.text, name)) continue;
+    if (!has_word(line.code, name)) continue;
     for (const char* qualifier : {"uniform", "in", "out", "buffer", "layout", "flat", "const", "shared"})
-      if (has_word(line.text, qualifier)) return {line.file, line.number};
+      if (has_word(line.code, qualifier)) return {line.file, line.number};
     if (mention == nullptr) mention = &line;
   }
   if (mention != nullptr) return {mention->file, mention->number};
@@ -73,7 +96,7 @@ Position SourceLines::last() const {
 Position SourceLines::mention(const std::vector<std::string>& words) const {
   for (const Line& line : lines_)
     for (const std::string& word : words)
-      if (has_word(line.text, word)) return {line.file, line.number};
+      if (has_word(line.code, word)) return {line.file, line.number};
   return {lines_.empty() ? std::string("shader") : lines_.front().file, 1};
 }
 

@@ -25,19 +25,19 @@ class SourceLines {
   // Position of a line in the whole text.
   std::size_t order(const Position& position) const;
 
-  // Where `name` is first declared as a global: the line that has it as a word and begins with a qualifier or continues
-  // such a declaration. SPIR-V gives global variables no position.
+  // Where `name` is first declared as a global: the line that has it as a word, outside comments, and a qualifier; the
+  // first that has it at all where there is none. SPIR-V gives global variables no position.
   Position declaration(const std::string& name) const;
 
   // The last line.
   Position last() const;
 
-  // The first line with one of the words.
+  // The first line with one of the words, outside comments.
   Position mention(const std::vector<std::string>& words) const;
 
  private:
   struct Line {
-    std::string file, text;
+    std::string file, text, code;  // code: without comments
     int number;
   };
   std::vector<Line> lines_;

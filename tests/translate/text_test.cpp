@@ -29,7 +29,7 @@ TEST_CASE("readable text has the GLSL as comments, compiled text #line") {
   CHECK(of(glsl).cpp == readable);
 }
 
-// glslang is told another version than the author's where that is quicker, or where the author's has no SPIR-V.
+// glslang is told another version than the author's where the author's has no SPIR-V or lacks what the shader uses.
 TEST_CASE("whatever version a shader is read as, __VERSION__ is the author's and newer built-ins are there") {
   const std::string body = "out vec4 c;\nvoid main() { c = vec4(float(__VERSION__)); }\n";
   for (const char* version : {"330", "440", "450", "460"})
@@ -46,7 +46,7 @@ TEST_CASE("whatever version a shader is read as, __VERSION__ is the author's and
   CHECK(has(of("#version 450\n#ifdef GL_SPIRV\n" + body + "#endif\n").cpp, "UF(450.0f)"));
 }
 
-TEST_CASE("what a version refuses is refused, whatever quicker version accepts it") {
+TEST_CASE("what a version refuses is refused, whatever earlier version accepts it") {
   const std::string uniform_location =
       "layout(location = 1) uniform float k;\nout vec4 c;\nvoid main() { c = vec4(k); }\n";
   const std::string name_buffer = "out vec4 c;\nvoid main() { float buffer = 1.0; c = vec4(buffer); }\n";

@@ -2,11 +2,13 @@
 
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <sstream>
 #include <utility>
 
 #include "base/error.h"
 #include "base/file.h"
+#include "cpu_shaders/source/preprocess.h"
 
 namespace twinshade {
 namespace {
@@ -72,14 +74,43 @@ void add(std::vector<InputRange>& ranges, InputRange range, const std::string& i
   ranges.push_back(std::move(range));
 }
 
+struct InputComment {
+  std::string text, file;
+  int line = 0;
+};
+using InputComments = std::map<std::size_t, InputComment>;  // by their line in the resolved text, counted from 0
+
+// Leaves out those that an #if leaves out. Comments are gone when conditionals are decided, pragmas are not: each line
+// gets one behind it.
+void keep_those_in_force(const ShaderSource& source, InputComments& comments) {
+  if (source.text.find("#if") == std::string::npos || comments.empty()) return;
+  const std::string mark = "#pragma twinshade_input_";
+  ShaderSource marked = source;
+  marked.text.clear();
+  std::istringstream in(source.text);
+  std::size_t at = 0;
+  for (std::string line; std::getline(in, line); ++at) {
+    marked.text += line + "\n";
+    if (const auto found = comments.find(at); found != comments.end())
+      marked.text += mark + std::to_string(at) + "\n#line " + std::to_string(found->second.line + 1) + " \"" +
+                     found->second.file + "\"\n";
+  }
+  InputComments in_force;
+  std::istringstream left(preprocess_untried(marked));
+  for (std::string line; std::getline(left, line);)
+    if (line.rfind(mark, 0) == 0) in_force.insert(comments.extract(std::stoul(line.substr(mark.size()))));
+  comments = std::move(in_force);
+}
+
 }  // namespace
 
 std::vector<InputRange> declared_ranges(const ShaderSource& source) {
-  std::vector<InputRange> ranges;
+  InputComments comments;
   std::istringstream lines(source.text);
   std::string file = source.files.empty() ? source.name : source.files[0];
   int number_of_line = 0;
-  for (std::string line; std::getline(lines, line);) {
+  std::size_t at = 0;
+  for (std::string line; std::getline(lines, line); ++at) {
     ++number_of_line;
     if (line.rfind("#line ", 0) == 0) {
       number_of_line = std::stoi(line.substr(6)) - 1;
@@ -90,9 +121,13 @@ std::vector<InputRange> declared_ranges(const ShaderSource& source) {
     const std::size_t comment = line.find("//");
     const std::size_t tag = comment == std::string::npos ? comment : line.find("@input", comment);
     if (tag == std::string::npos || line.find_first_not_of("/ \t", comment) != tag) continue;
-    add(ranges, range_of(line.substr(tag + 6), file + ":" + std::to_string(number_of_line) + ": "),
-        "; a side file goes before comments");
+    comments[at] = {line.substr(tag + 6), file, number_of_line};
   }
+  keep_those_in_force(source, comments);
+  std::vector<InputRange> ranges;
+  for (const auto& [_, comment] : comments)
+    add(ranges, range_of(comment.text, comment.file + ":" + std::to_string(comment.line) + ": "),
+        "; a side file goes before comments");
   return ranges;
 }
 

@@ -28,8 +28,8 @@ struct InputRange {
   std::vector<double> values;  // list
 };
 
-// From the comments of a shader and of what it includes. UserError "file:line: ..." for what cannot be read, and for a
-// second line for the same name.
+// From the comments of a shader and of what it includes that no #if leaves out. UserError "file:line: ..." for what
+// cannot be read, and for a second line for the same name.
 std::vector<InputRange> declared_ranges(const ShaderSource& source);
 // From a side file; the same.
 std::vector<InputRange> ranges_in_file(const std::string& path);

@@ -38,7 +38,8 @@ bool is_integer_zero(const Expression& e) {
   return e.kind == Kind::literal && e.type.is_integer() && e.integer && *e.integer == 0;
 }
 
-// Nine significant digits of the float that is meant, zeros at the end left out where what is left is the float exactly.
+// Nine significant digits of the float that is meant, zeros at the end left out where what is left is the float
+// exactly.
 std::string literal_text(float value) {
   std::string text = fmt::format("{:.9g}", value);
   if (std::stod(text) != double{value}) text = fmt::format("{:#.9g}", value);
@@ -105,6 +106,25 @@ class MakeExact : public Listener {
                                   Keyword{"buffer", 430, 310}})
         if (list_.tokens[i].text == word.name && source.version < (source.es ? word.es_version : word.version))
           edits_.replace(i, std::string(word.name) + "_name");
+  }
+
+  // Names that are the shader's own, but begin as those of the functions that come before it.
+  template <class StandsBefore>
+  void rename_own_names(const StandsBefore& stands_before) {
+    const auto is_ours = [](const std::string& name) {
+      return name.rfind("exact_", 0) == 0 || name.rfind("written_", 0) == 0;
+    };
+    const auto stands = [&](const Token& token) {
+      return stands_before(list_.files[static_cast<std::size_t>(token.file)]);
+    };
+    std::set<std::string> included;
+    for (const Token& token : list_.tokens)
+      if (token.kind == Token::Kind::name && is_ours(token.text) && stands(token)) included.insert(token.text);
+    for (std::size_t i = 0; i < list_.tokens.size(); ++i) {
+      const Token& token = list_.tokens[i];
+      if (token.kind == Token::Kind::name && is_ours(token.text) && included.count(token.text) == 0)
+        edits_.replace(i, token.text + "_name");
+    }
   }
 
   void expression(const Expression& e, Role role) override {
@@ -368,8 +388,13 @@ ExactShader make_exact(const ShaderSource& source, ExactScope scope) {
   using namespace lint_detail;
   compile_glsl(source);  // the parser relies on valid GLSL
   const TokenList tokens = tokenize(source);
+  // The files of shaders/exact/ stand as they are before the shader, unless it is they too that are rewritten.
+  const auto stands_before = [&](const std::string& file) {
+    return scope == ExactScope::written_out ? exact_file(file) == "written_out" : !exact_file(file).empty();
+  };
   MakeExact rewrite(tokens, scope);
   rewrite.rename_keywords(source);
+  rewrite.rename_own_names(stands_before);
   Parser(tokens, rewrite).run();
 
   ExactShader result;
@@ -381,10 +406,6 @@ ExactShader make_exact(const ShaderSource& source, ExactScope scope) {
   std::string text;
   if (!source.es)
     for (const std::string& extension : tokens.extensions) text += extension + "\n";
-  // The files of shaders/exact/ stand as they are before the shader, unless it is they too that are rewritten.
-  const auto stands_before = [&](const std::string& file) {
-    return scope == ExactScope::written_out ? exact_file(file) == "written_out" : !exact_file(file).empty();
-  };
   for (const std::string& file : tokens.files)
     if (stands_before(file)) rewrite.functions_.include(exact_file(file));
   text += rewrite.functions_.text(result.source.files);

@@ -122,7 +122,12 @@ void GlSession::fail(const ShaderSource& source, const DrawReply& reply) {
   if (reply.outcome == Outcome::glsl_error) {
     const std::string error = first_error(source, reply.text);
     if (about_generated_lines(error)) throw BackendError(name + ": the driver rejects generated GLSL: " + error);
-    throw UserError(error + " (" + name + ")");
+    // What an earlier version lacks, the translation takes from 450.
+    const std::string remedy =
+        !source.es && source.version < 450
+            ? "; the CPU accepts it: GLSL " + std::to_string(source.version) + " may lack what #version 450 has"
+            : std::string();
+    throw UserError(error + " (" + name + remedy + ")");
   }
   worker_.stop();  // after a failed driver call nothing is known about its state
   throw BackendError(name + ": " + reply.text);

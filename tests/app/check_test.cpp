@@ -153,15 +153,23 @@ TEST_CASE("wrong shaders, ranges and files are refused with their place, the oth
   const std::string range =
       folder.file("range.frag", "// @input q 0..1\nin float x; out vec4 color;\nvoid main() { color = vec4(x); }\n");
   const std::string missing = folder / "missing.frag";
+  const std::string later = folder.file("later.frag",
+                                        "#version 330\nin float x; out vec4 color;\nvoid main() {\n"
+                                        "  precise float y = x + 1.0;\n  color = vec4(y);\n}\n");
   const std::string junit = folder / "check.xml";
-  const Run run =
-      run_twinshade({"check", bad, range, missing, "--on", "cpu,egl", "--no-timing", "--json", "-", "--junit", junit});
+  const Run run = run_twinshade(
+      {"check", bad, range, missing, later, "--on", "cpu,egl", "--no-timing", "--json", "-", "--junit", junit});
   CHECK(run.code == 2);
   const nlohmann::json shaders = run.json()["shaders"];
-  REQUIRE(shaders.size() == 3);
+  REQUIRE(shaders.size() == 4);
   CHECK(shaders[0]["message"].get<std::string>().find(bad + ":3: ") == 0);
   CHECK(shaders[1]["message"].get<std::string>().find(range + ":1: unknown input 'q'") == 0);
   CHECK(shaders[2]["message"].get<std::string>().find(missing) == 0);
+  if (shaders[3]["verdict"] == "refused") {  // where there is an EGL to refuse it
+    CHECK(shaders[3]["message"].get<std::string>().find(later + ":4: ") == 0);
+    CHECK(shaders[3]["message"].get<std::string>().find("GLSL 330 may lack what #version 450 has") !=
+          std::string::npos);
+  }
   CHECK(run_twinshade({"check", bad, "--on", "cpu"}).code == 2);
   CHECK(run_twinshade({"check", bad, "--on", "cpu,metal"}).code == 2);
 }

@@ -138,4 +138,17 @@ TEST_CASE("a second line for the same input is refused, with the place of the fi
                        UserError);
 }
 
+TEST_CASE("of the ranges in the branches of an #if, those of the one that is compiled count, at their lines") {
+  const char* const text =
+      "#define WIDE 1\n#if WIDE\n// @input x 5..6\n#else\n// @input x 0..1\n// @input gone 0..1\n#endif\n"
+      "in float y; // @input y {2}";
+  const std::vector<InputRange> ranges = declared_ranges(shader(text));
+  REQUIRE(ranges.size() == 2);
+  CHECK(ranges[0].where == "s.frag:3: ");
+  CHECK(ranges[1].where == "s.frag:8: ");
+  CHECK(ranges[0].intervals == std::vector{std::pair{5.0, 6.0}});
+  CHECK_THROWS_WITH_AS(declared_ranges(shader("#if 1\n// @input x 0..1\n#endif\n#if 1 +\n#endif")),
+                       doctest::Contains("s.frag:4: "), UserError);
+}
+
 }  // namespace twinshade

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "cpu_shaders/rewrite/make_exact.h"
+#include "cpu_shaders/translate/compile_glsl.h"
 
 namespace twinshade {
 namespace {
@@ -30,14 +31,19 @@ std::string left_of(const std::string& body, const std::string& before_main = ""
   return list;
 }
 
-// The rewritten statement: what stands between main's braces.
-std::string body_of(const std::string& body, ExactScope scope = ExactScope::everything) {
-  const std::string text = make_exact(shader_of(body), scope).source.text;
+// What stands between main's braces.
+std::string plain_body(const ExactShader& shader) {
+  const std::string& text = shader.source.text;
   const std::size_t open = text.find('{', text.find("void main")) + 1;
   std::string inside = text.substr(open, text.rfind('}') - open), plain;
   for (const char c : inside)
     if (c != ' ' && c != '\n') plain += c;
   return plain;
+}
+
+// The rewritten statement.
+std::string body_of(const std::string& body, ExactScope scope = ExactScope::everything) {
+  return plain_body(make_exact(shader_of(body), scope));
 }
 
 }  // namespace
@@ -116,6 +122,21 @@ TEST_CASE("written out are division, roots and limits alone, by component, withi
   const std::string text = make_exact(nested, scope).source.text;
   CHECK(text.find("written_sqrt (") != std::string::npos);
   CHECK(text.find("= written_divide(") != std::string::npos);
+}
+
+TEST_CASE("a shader's own names that are those of exact functions are given way to, included ones are called") {
+  const ShaderSource own = resolve_shader(
+      "own",
+      "in float a; out float r; uniform float exact_zero;\nfloat exact_add(float x, float y) { return x + 2.0 * y; }\n"
+      "void main() { float exact_multiply = exact_add(a, exact_zero); r = a * exact_multiply; }\n",
+      "own.frag");
+  const ExactShader exact = make_exact(own);
+  CHECK_NOTHROW(compile_glsl(exact.source));
+  CHECK(plain_body(exact).find("exact_multiply_name=exact_add_name(a,exact_zero_name);") != std::string::npos);
+  const ShaderSource included = resolve_shader(
+      "included", "#include \"exact/dot.glsl\"\nin vec3 a; out float r;\nvoid main() { r = exact_dot(a, a) + 1.0; }\n",
+      "included.frag");
+  CHECK(plain_body(make_exact(included)) == "r=exact_add(exact_dot(a,a),1.0);");
 }
 
 TEST_CASE("the scope of constants leaves the rest alone") {

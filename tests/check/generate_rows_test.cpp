@@ -147,7 +147,7 @@ TEST_CASE("of the ranges in the branches of an #if, those of the one that is com
   CHECK(ranges[0].where == "s.frag:3: ");
   CHECK(ranges[1].where == "s.frag:8: ");
   CHECK(ranges[0].intervals == std::vector{std::pair{5.0, 6.0}});
-  CHECK_THROWS_WITH_AS(declared_ranges(shader("#if 1\n// @input x 0..1\n#endif\n#if 1 +\n#endif")),
+  CHECK_THROWS_WITH_AS(declared_ranges(shader("#if 1\n// @input x 0..1\n#endif\n#error no")),
                        doctest::Contains("s.frag:4: "), UserError);
 }
 

@@ -6,7 +6,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <utility>
 
@@ -14,6 +13,7 @@
 #include "base/names.h"
 #include "base/parallel.h"
 #include "cpu_shaders/machine.h"
+#include "cpu_shaders/shader_source.h"
 
 namespace twinshade {
 namespace {
@@ -305,12 +305,7 @@ void add_whole_option(CLI::App& command, const std::string& name, const std::str
 
 void add_include_option(CLI::App& command, std::vector<std::string>& folders) {
   command.add_option("-I,--include", folders, "folder to look for included files in; again for several")
-      ->each([](const std::string& folder) {
-        std::error_code code;
-        const bool built_in = folder.rfind("builtin:", 0) == 0;  // of the shaders in the program
-        if (!built_in && !std::filesystem::is_directory(folder, code))
-          throw UserError("--include " + folder + ": there is no such folder");
-      })
+      ->each(require_include_folder)
       ->type_name("DIR");
 }
 

@@ -26,6 +26,8 @@ struct ShaderSource {
 // binary, addressed as "exact/dot.glsl", "basis/sh.glsl" ...). Include once per file: a second #include of the same file is empty.
 // UserError "file:line: cannot include "x": not found in ..." ; include loops are impossible by construction.
 ShaderSource load_shader(const std::string& path, const std::vector<std::string>& include_folders = {});
+// UserError where an include folder that someone names ("builtin:...": of the shaders in the program) does not exist.
+void require_include_folder(const std::string& folder);
 // The same for what only fragment shaders do; a compute shader is refused by name.
 ShaderSource load_fragment_shader(const std::string& path, const std::vector<std::string>& include_folders = {});
 ShaderSource resolve_shader(const std::string& name, const std::string& main_text, const std::string& main_path,

@@ -264,6 +264,12 @@ ShaderSource resolve_shader(const std::string& name, const std::string& main_tex
   return resolver.finish(name);
 }
 
+void require_include_folder(const std::string& folder) {
+  std::error_code code;
+  if (folder.rfind("builtin:", 0) != 0 && !fs::is_directory(folder, code))
+    throw UserError("--include " + folder + ": there is no such folder");
+}
+
 ShaderSource load_shader(const std::string& path, const std::vector<std::string>& include_folders) {
   refuse_large_file(path);
   const std::string text = read_file(path);

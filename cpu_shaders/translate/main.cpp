@@ -92,6 +92,7 @@ Job job_of(const std::vector<std::string>& arguments) {
       names.push_back(arguments[k]);
   }
   if (names.size() != 1 || job.output.empty()) throw UserError(kUsage);
+  for (const std::string& folder : folders) require_include_folder(folder);
   job.source = load_shader(names[0], folders);
   return job;
 }

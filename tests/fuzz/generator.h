@@ -3,6 +3,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <map>
 #include <random>
 
 #include "tests/fuzz/program_generator.h"
@@ -80,6 +81,7 @@ class Generator {
   std::string held(const std::string& text, const GlslType& type);
   std::string tame(int rows, bool narrow);
   std::string composite(const GlslType& type, int depth);
+  std::string maker(const GlslType& type);  // name of a function that is given the elements of an array
   std::string pure_call(const GlslType& type, int depth);
 
   // --- generator_statements.cpp
@@ -104,6 +106,7 @@ class Generator {
   std::uint64_t features_;
   std::string text_, prefix_;
   Structures structures_;
+  std::map<std::string, std::string> makers_;  // by name; they stand behind the structures
   std::vector<Function> functions_;
   Scope scope_;                       // innermost last
   std::vector<std::string> globals_;  // may be written by functions

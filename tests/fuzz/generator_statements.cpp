@@ -116,7 +116,7 @@ void Generator::loop() {
   const int most = 1 + below(5), outer_times = times_;
   const std::string v = fresh(), limit = std::to_string(most);
   const std::size_t mark = scope_.size();
-  const int kind = below(6);
+  const int kind = below(8);
   if (kind == 1) {  // as many iterations as the invocation says
     const std::string bound = integer(plain(Scalar::i32), 2);
     line("for (int " + v + " = 0, end_" + v + " = (" + bound + ") & 3; " + v + " < end_" + v + "; ++" + v + ") {");
@@ -126,8 +126,8 @@ void Generator::loop() {
     line("for (int " + v + " = 0; " + v + " < " + limit + "; " + v + " += " + pick({"1", "2"}) + ") {");
   } else {
     line("int " + v + " = 0;");
-    if (kind == 5) {
-      line("for (;;) {");
+    if (kind >= 5) {  // only a jump ends it
+      line(kind == 5 ? "for (;;) {" : kind == 6 ? "while (true) {" : "do {");
       line("  if (++" + v + " > " + limit + ") break;");
     } else {
       may_hoist_ = false;
@@ -145,7 +145,7 @@ void Generator::loop() {
     line("} while (" + v + " < " + limit + " && " + truth(2) + ");");
     may_hoist_ = true;
   } else {
-    line("}");
+    line(kind == 7 ? "} while (true);" : "}");
   }
   if (kind < 3) scope_.resize(mark);
 }

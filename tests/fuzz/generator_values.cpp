@@ -260,7 +260,8 @@ std::string Generator::truth(int depth) {
   if (c < 72) return "!" + truth(d);
   if (c < 80 && allowed(0)) return join({pick({"any(", "all("}), truths(2 + below(3), d), ")"});
   if (c < 86 && allowed(7)) return pure_call(plain(Scalar::boolean), d);
-  if (c < 92) return "bool(" + integer(plain(Scalar::u32), d) + " & 1u)";
+  if (c < 89) return "bool(" + integer(plain(Scalar::u32), d) + " & 1u)";
+  if (c < 92) return "bool(" + integer(plain(Scalar::i32), d) + ")";
   if (c < 97) {  // whole vectors, structs, arrays
     const GlslType type = any_type();
     if (!holds_float(type, structures_) && !(type.is_array() && type.base == Scalar::boolean)) {
@@ -291,7 +292,7 @@ std::string Generator::truths(int rows, int depth) {
     for (int k = 1; k < rows; ++k) text += ", " + truth(d);
     return text + ")";
   }
-  if (c < 85) return name_of(type) + "(" + integer(plain(Scalar::u32, rows), d) + ")";
+  if (c < 85) return name_of(type) + "(" + integer(plain(chance(50) ? Scalar::u32 : Scalar::i32, rows), d) + ")";
   return leaf(type);
 }
 
@@ -324,6 +325,21 @@ std::string Generator::real(const GlslType& type, int depth) {
   return allowed(7) ? pure_call(type, d) : leaf(type);
 }
 
+std::string Generator::maker(const GlslType& type) {
+  std::string name = "make_" + structures_[static_cast<std::size_t>(type.structure)].name;
+  for (const int length : type.dimensions) name += "_" + std::to_string(length);
+  std::string& text = makers_[name];
+  if (!text.empty()) return name;
+  std::string body = name_of(type) + " made;";
+  for (int k = 0; k < type.dimensions[0]; ++k) {
+    const std::string at = std::to_string(k);
+    text += (text.empty() ? "" : ", ") + name_of(type.element()) + " a" + at;
+    body += " made[" + at + "] = a" + at + ";";
+  }
+  text = name_of(type) + " " + name + "(" + text + ") { " + body + " return made; }\n";
+  return name;
+}
+
 // Structs, arrays and matrices: a variable, or a constructor.
 std::string Generator::composite(const GlslType& type, int depth) {
   const std::vector<std::string> found = all_places(type, false);
@@ -333,7 +349,10 @@ std::string Generator::composite(const GlslType& type, int depth) {
     parts.assign(static_cast<std::size_t>(type.is_array() ? type.dimensions[0] : type.columns), type.element());
   else
     for (const Member& m : structures_[static_cast<std::size_t>(type.structure)].members) parts.push_back(m.type);
-  std::string text = name_of(type) + "(";
+  // glslang 12 crashes where a precise variable reads such an array's elements, if a constructor made it
+  // (docs/hardening.md): a function does.
+  const bool crashes = type.is_array() && type.structure >= 0 && holds_float(type, structures_);
+  std::string text = (crashes ? maker(type) : name_of(type)) + "(";
   for (const GlslType& part : parts) text += (text.back() == '(' ? "" : ", ") + value(part, std::min(depth - 1, 1));
   return text + ")";
 }

@@ -8,8 +8,8 @@
 namespace twinshade::fuzz {
 
 Generator::Generator(std::uint64_t seed) : random_(seed), features_(random_() | random_()) {
-  // Some prefixes make names that the translator or C++ use themselves.
-  prefix_ = pick({"v", "value", "mask", "t", "c", "choice", "vec_", "kept", "again", "delete"});
+  // Some prefixes make names that the translator or C++ use themselves, or that look like macros.
+  prefix_ = pick({"v", "value", "mask", "t", "c", "choice", "vec_", "kept", "again", "delete", "M_"});
 }
 
 std::string Generator::fresh() { return prefix_ + std::to_string(++names_); }
@@ -156,6 +156,7 @@ GeneratedProgram Generator::program() {
   GeneratedProgram program;
   text_ = "#version 450\n";
   structures();
+  const std::size_t behind_structures = text_.size();
   interface(program);
   for (int k = allowed(7) || allowed(19) ? 1 + below(2) : 0; k > 0; --k) function();
   text_ += "void main() {\n";
@@ -167,7 +168,9 @@ GeneratedProgram Generator::program() {
   for (int k = 3 + below(4); k > 0; --k) statement();
   Scope scope = scope_;
   observe(scope);
-  program.text = text_ + "}\n";
+  text_ += "}\n";
+  for (const auto& [_, text] : makers_) text_.insert(behind_structures, text);
+  program.text = text_;
   return program;
 }
 

@@ -27,7 +27,9 @@ struct BakeVerb {
     write_bundle(file, ready.bundle);
 
     const Bundle& bundle = ready.bundle;
-    const auto bytes = std::filesystem::file_size(file);
+    std::error_code no_file;  // a device or a pipe has no size
+    const auto size = std::filesystem::file_size(file, no_file);
+    const auto bytes = no_file ? 0 : size;
     output.text(fmt::format("{}: {} triangles, {} vertices, {} textures, {:.1f} MiB\nbundle {}\n", file,
                             bundle.triangle_count(), bundle.vertex_count(), bundle.textures.size(),
                             double(bytes) / (1 << 20), ready.hash));

@@ -41,10 +41,9 @@ struct CheckVerb {
 
   int run() {
     apply(common);
-    const Output output(common);
+    const Output output(common, junit);
     require_backends(on);
     if (on.size() < 2) throw UserError("--on " + on[0] + ": name at least two backends to compare");
-    if (!junit.empty()) require_writable_file(junit);
     options.on.clear();
     for (const std::string& name : on) {
       EvaluationTarget target;
@@ -66,9 +65,6 @@ struct CheckVerb {
     const std::vector<CheckedShader> results = check_shaders(evaluator, paths, options, [&](std::size_t index) {
       output.progress(fmt::format("{} ({} of {})", paths[index], index + 1, paths.size()));
     });
-    output.text(check_table(results));
-    for (const CheckedShader& shader : results)
-      if (const std::string text = describe_check(shader, options.make_exact); !text.empty()) output.text("\n" + text);
     Json list = Json::array();
     std::vector<JUnitCase> cases;
     for (const CheckedShader& shader : results) {
@@ -76,12 +72,17 @@ struct CheckVerb {
       cases.push_back(check_junit(shader, options.make_exact));
       for (const std::string& file : shader.files) remember(file);
       remember(shader.path);
+      remember(options.inputs_file.empty() ? shader.path + ".inputs" : options.inputs_file);
     }
     output.json({{"provenance", Provenance(common).json()},
                  {"rows", options.generate.rows},
                  {"make_exact", options.make_exact},
                  {"shaders", list}});
-    if (!junit.empty()) write_file(junit, junit_xml("twinshade check", cases));
+    output.junit(junit_xml("twinshade check", cases));
+    // Behind the files: a reader that closes the pipe ends the program.
+    output.text(check_table(results));
+    for (const CheckedShader& shader : results)
+      if (const std::string text = describe_check(shader, options.make_exact); !text.empty()) output.text("\n" + text);
     if (!annotate.empty()) output.text(github_annotations(cases));
     return exit_code(results);
   }
@@ -97,6 +98,7 @@ struct CheckVerb {
     return code;
   }
 
+  // A file that does not exist yet, too: it may come to be.
   void remember(const std::string& file) {
     std::error_code code;
     times_[file] = fs::last_write_time(file, code);
@@ -144,7 +146,7 @@ Verb add_check(CLI::App& app) {
   add_whole_option(*command, "--ulp",
                    "largest distance that is called the same, +0 and -0 being 0 apart (default: every bit has to be)",
                    0, kMostUlp, [verb = verb.get()](std::uint64_t ulp) { verb->options.ulp = ulp; });
-  command->add_option("--junit", verb->junit, "write JUnit XML")->type_name("FILE");
+  command->add_option("--junit", verb->junit, "write JUnit XML; - for stdout")->type_name("FILE");
   add_annotate_option(*command, verb->annotate);
   command->add_flag("--no-timing", verb->no_timing, "do not measure nanoseconds");
   command->add_flag("--watch", verb->watch, "check again whenever a file is saved");

@@ -24,21 +24,25 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
+constexpr std::uint64_t kMostCasesBytes = std::uint64_t{256} << 20;
+
 // A shader and its cases, both files.
 struct CasePaths {
   std::string shader, cases;
   std::string missing = {};  // what to say where one of the two is not there
 };
 
-// NAME.frag with NAME.json, by name. UserError for an empty folder.
+// NAME.frag with NAME.json, by name. UserError for an empty folder, and for one that cannot be read.
 std::vector<CasePaths> pairs_in(const std::string& folder) {
   std::vector<CasePaths> pairs;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    const fs::path path = entry.path();
+  std::error_code code;
+  for (auto at = fs::directory_iterator(folder, code); !code && at != fs::end(at); at.increment(code)) {
+    const fs::path path = at->path();
     const bool shader = path.extension() == ".frag";
     if (!shader && path.extension() != ".json") continue;
     const fs::path partner = fs::path(path).replace_extension(shader ? ".json" : ".frag");
-    const bool paired = fs::exists(partner);
+    std::error_code missing;
+    const bool paired = fs::exists(partner, missing);
     if (paired && !shader) continue;
     pairs.push_back({path.string(), partner.string()});
     if (!paired)
@@ -46,6 +50,7 @@ std::vector<CasePaths> pairs_in(const std::string& folder) {
                              " beside it: add it, or move the file to another folder";
     if (!shader) std::swap(pairs.back().shader, pairs.back().cases);
   }
+  if (code) throw UserError(folder + ": cannot be read: " + code.message());
   if (pairs.empty()) throw UserError(folder + ": no shaders in it: it needs pairs NAME.frag and NAME.json");
   std::sort(pairs.begin(), pairs.end(), [](const CasePaths& a, const CasePaths& b) { return a.shader < b.shader; });
   return pairs;
@@ -74,16 +79,20 @@ struct EvalVerb {
 
   int run() const {
     apply(common);
-    const Output output(common);
-    if (!junit_file.empty()) require_writable_file(junit_file);
+    const Output output(common, junit_file);
     require_backends(backends);
     const std::vector<EvaluationTarget> targets = named_targets();
-    const bool many = fs::is_directory(shader);
+    std::error_code code;
+    const bool many = fs::is_directory(shader, code);
     if (many && !cases_file.empty())
       throw UserError("--cases: " + shader + " is a folder, whose shaders NAME.frag have their cases in NAME.json");
-    if (!many && cases_file.empty())
+    if (!many && cases_file.empty()) {
+      const bool exists = fs::exists(shader, code);
+      if (code) throw UserError(shader + ": cannot be read: " + code.message());
+      if (!exists) throw UserError(shader + ": there is no such file or folder");
       throw UserError("--cases is missing: a JSON file with the inputs of " + shader +
                       " and the outputs that are expected");
+    }
     const std::vector<CasePaths> paths = many ? pairs_in(shader) : std::vector<CasePaths>{{shader, cases_file, ""}};
 
     std::vector<ShaderSource> sources(paths.size());
@@ -95,7 +104,7 @@ struct EvalVerb {
       guarded(cases[i], many, output, [&] {
         if (!paths[i].missing.empty()) throw UserError(paths[i].missing);
         sources[i] = load_fragment_shader(paths[i].shader, include_folders);
-        cases[i].cases = parse_cases(read_file(paths[i].cases), paths[i].cases);
+        cases[i].cases = parse_cases(read_file(paths[i].cases, kMostCasesBytes), paths[i].cases);
       });
     }
     evaluate(sources, paths, targets, many, cases, output);
@@ -119,8 +128,8 @@ struct EvalVerb {
       c.error = error.what();
       c.backends.clear();
       if (many) return;
-      write_json({c}, output);
-      tell_services({c}, output);
+      write_files({c}, output);
+      annotate_failures({c}, output);
       throw;
     }
   }
@@ -162,23 +171,23 @@ struct EvalVerb {
     c.backends.push_back(std::move(backend));
   }
 
-  void tell_services(const std::vector<EvaluatedCase>& cases, const Output& output) const {
-    if (!junit_file.empty()) write_file(junit_file, junit_xml("twinshade eval", eval_junit(cases)));
+  void annotate_failures(const std::vector<EvaluatedCase>& cases, const Output& output) const {
     if (!annotate.empty()) output.text(github_annotations(eval_junit(cases)));
   }
 
-  void write_json(const std::vector<EvaluatedCase>& cases, const Output& output) const {
+  void write_files(const std::vector<EvaluatedCase>& cases, const Output& output) const {
     Provenance provenance(common);
     for (const EvaluatedCase& c : cases)
       for (const EvaluatedBackend& backend : c.backends)
         if (backend.error.empty()) provenance.add(backend.name, backend.rows.provenance);
     output.json({{"provenance", provenance.json()}, {"cases", eval_json(cases)}});
+    output.junit(junit_xml("twinshade eval", eval_junit(cases)));
   }
 
   int report(const std::vector<EvaluatedCase>& cases, bool many, const Output& output) const {
+    write_files(cases, output);  // first: whoever reads the text may close the pipe, which ends the program
     output.text(eval_text(cases, many));
-    write_json(cases, output);
-    tell_services(cases, output);
+    annotate_failures(cases, output);
     const auto has_error = [](const EvaluatedCase& c) { return c.has_error(); };
     if (std::any_of(cases.begin(), cases.end(), has_error)) return 2;
     return std::all_of(cases.begin(), cases.end(), [](const EvaluatedCase& c) { return c.pass(); }) ? 0 : 1;
@@ -204,7 +213,7 @@ Verb add_eval(CLI::App& app) {
           "number type of the CPU (default: lanes, as many as registers hold)")
       ->type_name(fmt::format("{}", fmt::join(kEvalNumbers, "|")));
   add_include_option(*command, verb->include_folders);
-  command->add_option("--junit", verb->junit_file, "write the results as JUnit XML")->type_name("F.xml");
+  command->add_option("--junit", verb->junit_file, "write the results as JUnit XML; - for stdout")->type_name("F.xml");
   add_annotate_option(*command, verb->annotate);
   add_fma_option(*command, verb->options.host_fma);
   add_time_limit_option(*command, verb->options.time_limit_seconds);

@@ -1,9 +1,11 @@
 // twinshade: one GLSL shading function, two machines, compared bit by bit.
-#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
+#include <iostream>
 #include <new>
 
 #include "app/options.h"
@@ -24,7 +26,7 @@ std::string one_line(std::string text) {
 }
 
 int fail(const std::string& what) {
-  fmt::print(stderr, "twinshade: {}\n", one_line(what));
+  std::fprintf(stderr, "twinshade: %s\n", one_line(what).c_str());  // fmt::print throws where stderr is closed
   return 2;
 }
 
@@ -35,6 +37,15 @@ void require_verb(int argc, char** argv, const std::vector<Verb>& verbs) {
   for (const Verb& verb : verbs) names.push_back(verb.command->get_name());
   if (std::find(names.begin(), names.end(), argv[1]) == names.end())
     throw UserError(unknown_name_message("verb", argv[1], names));
+}
+
+int run_verb(const Verb& verb) {
+  try {
+    return verb.run();
+  } catch (const std::bad_alloc&) {
+    if (!verb.command->get_option_no_throw("--size")) throw;
+    return fail("out of memory; try a smaller --size or --lightmap");
+  }
 }
 
 int run(int argc, char** argv) {
@@ -52,13 +63,17 @@ int run(int argc, char** argv) {
     require_verb(argc, argv, verbs);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    if (error.get_exit_code() == 0) {  // --help, --version
+      const int code = app.exit(error);
+      if (!std::cout.flush()) throw UserError(std::string("stdout: cannot be written: ") + std::strerror(errno));
+      return code;
+    }
     std::string verb;
     for (const CLI::App* command : app.get_subcommands()) verb += command->get_name() + " ";
     return fail(one_line(error.what()) + " (twinshade " + verb + "--help lists what there is)");
   }
   for (const Verb& verb : verbs)
-    if (verb.command->parsed()) return verb.run();
+    if (verb.command->parsed()) return run_verb(verb);
   return 2;
 }
 
@@ -66,7 +81,7 @@ int run_and_report(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::bad_alloc&) {
-    return fail("out of memory; try a smaller --size or --lightmap");
+    return fail("out of memory; give it less at once, or more memory (ulimit -v, the container's limit)");
   } catch (const std::exception& error) {  // UserError, BackendError
     return fail(error.what());
   }

@@ -11,61 +11,67 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "base/file.h"
 
 namespace twinshade {
 namespace fs = std::filesystem;
 
-Output::Output(const CommonOptions& options) : options_(options) {
-  if (!options.json.empty() && options.json != "-") require_writable_file(options.json);
+namespace {
+
+void write_to_stdout(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+    throw UserError(std::string("stdout: cannot be written: ") + std::strerror(errno));
+}
+
+// A file's path, or - for stdout; empty: not asked for.
+void write_to(const std::string& file, const std::string& text) {
+  if (file == "-")
+    write_to_stdout(text);
+  else if (!file.empty())
+    write_file(file, text);
+}
+
+}  // namespace
+
+Output::Output(const CommonOptions& options, const std::string& junit_file)
+    : options_(options), junit_file_(junit_file) {
+  if (options.json == "-" && junit_file == "-")
+    throw UserError("--json - and --junit -: both go to stdout; name a file for one of them");
+  for (const std::string& file : {options.json, junit_file})
+    if (!file.empty() && file != "-") require_writable_file(file);
   shows_progress_ = !options.quiet && ::isatty(STDERR_FILENO);
 }
 
 void Output::text(const std::string& text) const {
   clear_progress();
-  std::FILE* stream = options_.json == "-" ? stderr : stdout;
-  std::fwrite(text.data(), 1, text.size(), stream);
-  std::fflush(stream);
+  if (options_.json == "-" || junit_file_ == "-")
+    std::fputs(text.c_str(), stderr);
+  else
+    write_to_stdout(text);
 }
 
 void Output::note(const std::string& line) const {
   clear_progress();
-  if (!options_.quiet) fmt::print(stderr, "note: {}\n", line);
+  if (!options_.quiet) std::fprintf(stderr, "note: %s\n", line.c_str());
 }
 
 void Output::progress(const std::string& line) const {
   if (!shows_progress_) return;
   clear_progress();
-  fmt::print(stderr, "{}", line);
+  std::fputs(line.c_str(), stderr);
   std::fflush(stderr);
   progress_shown_ = true;
 }
 
 void Output::clear_progress() const {
-  if (progress_shown_) fmt::print(stderr, "\r\033[K");  // ECMA-48: erase to the end of the line
+  if (progress_shown_) std::fputs("\r\033[K", stderr);  // ECMA-48: erase to the end of the line
   progress_shown_ = false;
 }
 
 void Output::json(const Json& json) const {
-  if (options_.json.empty()) return;
-  const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
-  if (options_.json != "-") {
-    write_file(options_.json, text);
-  } else if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
-    throw UserError(std::string("stdout: cannot be written: ") + std::strerror(errno));
-  }
+  if (!options_.json.empty()) write_to(options_.json, json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 
-void require_writable_file(const std::string& path) {
-  const fs::path target(path);
-  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-  std::error_code code;
-  if (!fs::is_directory(folder, code))
-    throw UserError(path + ": cannot be written: the folder " + folder.string() + " does not exist");
-  if (fs::is_directory(target, code)) throw UserError(path + ": cannot be written: it is a folder");
-  if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    throw UserError(path + ": cannot be written: " + folder.string() + ": " + std::strerror(errno));
-}
+void Output::junit(const std::string& xml) const { write_to(junit_file_, xml); }
 
 void require_writable_folder(const std::string& folder) {
   std::error_code code;

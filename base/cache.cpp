@@ -1,10 +1,15 @@
 #include "base/cache.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <charconv>
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -55,7 +60,24 @@ bool is_entry(const std::string& name) {
   return false;
 }
 
-// Other processes add and remove meanwhile: what has gone is skipped.
+bool is_abandoned(const std::string& name, fs::file_time_type::duration age) {
+  return is_temporary(name) && age > kAbandoned;
+}
+
+// What is within a folder of the cache: a compiler that was killed leaves half an object there.
+void remove_abandoned_in(const fs::path& folder) {
+  const auto now = Clock::now();
+  std::vector<fs::path> abandoned;
+  std::error_code code;
+  for (auto at = fs::recursive_directory_iterator(folder, code); !code && at != fs::end(at); at.increment(code)) {
+    std::error_code gone;
+    const auto written = at->last_write_time(gone);
+    if (!gone && is_abandoned(at->path().filename().string(), now - written)) abandoned.push_back(at->path());
+  }
+  for (const fs::path& path : abandoned) fs::remove_all(path, code);
+}
+
+// Other processes add and remove meanwhile: what has gone is skipped. Abandoned temporaries within entries go at once.
 std::vector<Entry> list_entries(const fs::path& folder) {
   std::vector<Entry> entries;
   std::error_code code;
@@ -64,14 +86,27 @@ std::vector<Entry> list_entries(const fs::path& folder) {
     if (!is_entry(name) && !is_temporary(name)) continue;
     std::error_code gone;
     const auto used = fs::last_write_time(at->path(), gone);
+    if (is_entry(name)) remove_abandoned_in(at->path());
     if (!gone) entries.push_back({at->path(), used, size_of(at->path())});
   }
   return entries;
 }
 
+[[noreturn]] void refuse_cache(const fs::path& folder, const std::string& reason) {
+  throw UserError(folder.string() + ": the cache cannot be written: " + reason +
+                  "; set TWINSHADE_CACHE to a folder of your own");
+}
+
+void clear_way(const std::string& path) {
+  std::error_code code;
+  const fs::file_status status = fs::symlink_status(path, code);
+  if (fs::exists(status) && !fs::is_regular_file(status)) fs::remove_all(path, code);
+}
+
 }  // namespace
 
 std::string cache_folder() {
+  cache_size_limit();  // a size that is no size is an error before minutes of work, not after
   fs::path folder;
   if (const char* own = std::getenv("TWINSHADE_CACHE"); own && *own)
     folder = own;
@@ -85,6 +120,35 @@ std::string cache_folder() {
   fs::create_directories(folder, code);
   if (code) throw UserError(folder.string() + ": cannot be created: " + code.message() + "; set TWINSHADE_CACHE");
   return folder.string();
+}
+
+void require_writable_cache() {
+  const std::string folder = cache_folder();
+  if (::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0) refuse_cache(folder, std::strerror(errno));
+}
+
+std::string make_cache_folder(const std::string& name) {
+  fs::path folder = cache_folder();
+  for (const fs::path& part : fs::path(name)) {
+    folder /= part;
+    std::error_code code;
+    if (fs::is_directory(folder, code)) continue;
+    // Another process may be making it: what became a folder meanwhile is not unlinked.
+    ::unlink(folder.c_str());
+    fs::create_directory(folder, code);
+    if (code) refuse_cache(folder, code.message());
+  }
+  return folder.string();
+}
+
+void write_cached(const std::string& path, std::string_view content) {
+  clear_way(path);
+  write_file(path, content);
+}
+
+void write_cached_with(const std::string& path, const std::function<void(const std::string&)>& write) {
+  clear_way(path);
+  write_file_with(path, write);
 }
 
 std::uint64_t cache_size_limit() {
@@ -120,7 +184,7 @@ void trim_cache() {
   const auto now = Clock::now();
   for (const Entry& entry : entries) {
     const auto age = now - entry.used;
-    const bool abandoned = is_temporary(entry.path.filename().string()) && age > kAbandoned;
+    const bool abandoned = is_abandoned(entry.path.filename().string(), age);
     if (!abandoned && (total <= limit || age < kInUse)) continue;
     std::error_code ignored;
     fs::remove_all(entry.path, ignored);
@@ -139,8 +203,13 @@ void seal(const std::string& path) {
 bool is_sealed(const std::string& path) {
   constexpr std::size_t kHashLength = 64;
   std::error_code code;
-  if (!fs::exists(path, code)) return false;
-  const std::string content = read_file(path);
+  if (!fs::is_regular_file(path, code)) return false;
+  std::string content;
+  try {
+    content = read_file(path);
+  } catch (const UserError&) {
+    return false;
+  }
   if (content.size() < kHashLength) return false;
   const std::string_view sealed(content.data(), content.size() - kHashLength);
   return sha256_hex(sealed) == std::string_view(content).substr(sealed.size());

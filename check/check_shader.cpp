@@ -15,6 +15,8 @@
 namespace twinshade {
 namespace {
 
+constexpr const char* kFragCoord = "gl_FragCoord";
+
 class Check {
  public:
   Check(Evaluator& evaluator, const std::string& path, const CheckOptions& options)
@@ -67,25 +69,25 @@ class Check {
       ExactShader exact = make_exact(source_);
       source_ = std::move(exact.source);
       result_.findings = std::move(exact.left);
-      if (exact.uses_zero) ranges_.push_back(zero());
+      uses_zero_ = exact.uses_zero;
     } else {
       result_.findings = lint(source_);
     }
   }
 
   void generate() {
-    const Reflection& reflection = evaluator_.reflection(source_);
+    Reflection reflection = evaluator_.reflection(source_);
     uses_frag_coord_ = reflection.uses_frag_coord;
     group_ = reflection.uses_derivatives ? 4 : 1;
+    // What --make-exact added is none of the author's inputs.
+    if (uses_zero_) std::erase_if(reflection.uniforms, [](const auto& uniform) { return uniform.name == kExactZero; });
+    use_block_names(reflection, ranges_);
     table_ = generate_rows(reflection, ranges_, options_.generate);
-  }
-
-  static InputRange zero() {
-    InputRange range;
-    range.name = kExactZero;
-    range.kind = InputRange::Kind::list;
-    range.values = {0.0};
-    return range;
+    if (!uses_zero_) return;
+    Values zero;
+    zero.name = kExactZero;
+    zero.bits = {0};
+    table_.uniforms.push_back(std::move(zero));
   }
 
   void compare() {
@@ -154,6 +156,19 @@ class Check {
     } catch (const BackendError& error) {
       if (result_.counterexample) result_.counterexample->first_line.note = error.what();
     }
+    if (result_.counterexample) as_the_author_wrote(*result_.counterexample);
+  }
+
+  // Without the inputs that were added.
+  void as_the_author_wrote(Counterexample& example) const {
+    if (uses_zero_) std::erase_if(example.values.uniforms, [](const Values& v) { return v.name == kExactZero; });
+    if (!uses_frag_coord_) return;
+    for (Values& values : example.values.inputs)
+      if (values.name == kRowFragCoord) values.name = kFragCoord;
+    if (!example.first_line.difference) return;
+    std::string& what = example.first_line.difference->statement.what;
+    for (std::size_t at = 0; (at = what.find(kRowFragCoord, at)) != std::string::npos;)
+      what.replace(at, std::string_view(kRowFragCoord).size(), kFragCoord);
   }
 
   void explain(const BackendCheck& differing) {
@@ -272,7 +287,7 @@ class Check {
   std::vector<InputRange> ranges_;
   ValueTable table_;
   std::size_t group_ = 1;  // rows that belong together: a quad where derivatives are taken
-  bool uses_frag_coord_ = false;
+  bool uses_frag_coord_ = false, uses_zero_ = false;
   CheckedShader result_;
 };
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "base/error.h"
 #include "check/compare_rows.h"
@@ -12,10 +13,11 @@ namespace twinshade {
 namespace {
 
 constexpr std::size_t kMostValues = 8192;     // of one invocation
-constexpr std::size_t kMostStatements = 512;  // tried on the other machine
+constexpr std::size_t kMostStatements = 512;  // tried on the other machine: each is compiled there
 
 struct TracedValue {
-  std::size_t statement = 0;
+  std::size_t value = 0;                   // of ProbedShader::values
+  std::array<std::uint32_t, 3> element{};  // of the arrays on the way to it
   Scalar scalar = Scalar::f32;
   std::uint32_t components = 1;
   std::array<std::uint32_t, 4> bits{};
@@ -65,9 +67,11 @@ class Tracer {
       trace.all = place->bits[at + 1];
       if (place->bits[at] == 0) break;
       TracedValue traced;
-      traced.statement = place->bits[at] - 1;
-      traced.scalar = place->bits[at + 2] != 0 ? Scalar::f32 : Scalar::i32;
-      traced.components = std::clamp(place->bits[at + 3], 1u, 4u);
+      const std::uint32_t type = place->bits[at + 2], elements = place->bits[at + 3];
+      traced.value = place->bits[at] - 1;
+      traced.element = {elements & 0xffffu, elements >> 16, type >> 16};
+      traced.scalar = Scalar(type & 3u);
+      traced.components = std::clamp(type >> 2 & 7u, 1u, 4u);
       std::copy_n(value->bits.begin() + std::ptrdiff_t(at), 4, traced.bits.begin());
       trace.values.push_back(traced);
     }
@@ -80,44 +84,128 @@ class Tracer {
   const std::size_t row_;
 };
 
+// "s.second", "P[2]", "w[3].x"
+std::string name_of(const ProbedValue& value, const TracedValue& traced) {
+  std::string name = value.name[0];
+  for (std::size_t i = 1; i < value.name.size(); ++i)
+    name += (i <= traced.element.size() ? "[" + std::to_string(traced.element[i - 1]) + "]" : "[]") + value.name[i];
+  return name;
+}
+
+class Search {
+ public:
+  Search(Evaluator& evaluator, const ShaderSource& source, const ValueTable& table, std::size_t row,
+         const EvaluationTarget& a, const EvaluationTarget& b)
+      : tracer_(evaluator, table, row), source_(source), all_(add_probes(source)), b_(b) {
+    const std::size_t count = std::min(tracer_.run(all_.source, a, 1).all, kMostValues);
+    trace_ = tracer_.run(all_.source, a, std::max<std::size_t>(count, 1));
+    for (std::size_t t = 0; t < trace_.values.size(); ++t) {
+      const std::size_t statement = statement_of(trace_.values[t]);
+      std::vector<std::size_t>& of_statement = times_[statement];
+      if (of_statement.empty()) order_.push_back(statement);
+      of_statement.push_back(t);
+    }
+  }
+
+  // What computes is looked at first. The others, which seldom differ, are looked at alone if they do together, or if
+  // there is nothing else.
+  FirstLine run() {
+    std::vector<std::size_t> computing, others;
+    for (const std::size_t statement : order_)
+      (all_.statements[statement].computes ? computing : others).push_back(statement);
+    one_by_one(computing);
+    if (found_) std::erase_if(others, [&](std::size_t statement) { return times_[statement].front() > found_->time; });
+    if (!others.empty() && (!found_ || differ({others.begin(), others.end()}))) one_by_one(others);
+    FirstLine result;
+    result.difference = found_;
+    if (!found_) result.note = why_none();
+    return result;
+  }
+
+ private:
+  std::size_t statement_of(const TracedValue& traced) const { return all_.values[traced.value].statement; }
+
+  // Until none that is left could come before the first that differs.
+  void one_by_one(const std::vector<std::size_t>& statements) {
+    for (const std::size_t statement : statements) {
+      if (found_ && times_[statement].front() > found_->time) return;
+      if (looked_at_ == kMostStatements) {
+        cut_short_ = true;
+        return;
+      }
+      ++looked_at_;
+      differ({statement});
+    }
+  }
+
+  // Whether the other machine has other values for these statements, told of in one program; one alone is noted.
+  bool differ(const std::set<std::size_t>& statements) {
+    std::vector<std::size_t> when;
+    for (const std::size_t statement : statements)
+      when.insert(when.end(), times_[statement].begin(), times_[statement].end());
+    std::sort(when.begin(), when.end());
+    const Trace other = tracer_.run(add_probes(source_, statements).source, b_, when.size());
+    for (std::size_t k = 0; k < when.size() && k < other.values.size(); ++k) {
+      const TracedValue &x = trace_.values[when[k]], &y = other.values[k];
+      if (x.value == y.value && same(x, y)) continue;
+      if (statements.size() == 1 && (!found_ || when[k] < found_->time)) note(when[k], y);
+      return true;
+    }
+    return false;
+  }
+
+  void note(std::size_t time, const TracedValue& y) {
+    const TracedValue& x = trace_.values[time];
+    LineDifference difference;
+    difference.statement = all_.statements[statement_of(x)];
+    difference.statement.what = name_of(all_.values[x.value], x);
+    difference.time = time;
+    difference.occurrence = executions(time);
+    difference.scalar = x.scalar;
+    difference.components = x.components;
+    difference.a = x.bits;
+    difference.b = y.bits;
+    found_ = std::move(difference);
+  }
+
+  // A statement tells of each of its values once in an execution.
+  std::size_t executions(std::size_t last) const {
+    const TracedValue& one = trace_.values[last];
+    return std::size_t(
+        std::count_if(trace_.values.begin(), trace_.values.begin() + std::ptrdiff_t(last) + 1,
+                      [&](const TracedValue& v) { return v.value == one.value && v.element == one.element; }));
+  }
+
+  std::string why_none() const {
+    if (cut_short_)
+      return "none of the first " + std::to_string(looked_at_) + " statements differs when it is looked at (of " +
+             std::to_string(order_.size()) + ")";
+    if (trace_.all > kMostValues) return "none of the first " + std::to_string(kMostValues) + " values differs";
+    if (!all_.complete)
+      return "no value differs of those that can be looked at (not doubles, nor stores through an index that calls a "
+             "function)";
+    return "no value differs when it is looked at: the difference needs several statements compiled as one, or is in "
+           "an "
+           "output that is never written";
+  }
+
+  const Tracer tracer_;
+  const ShaderSource& source_;
+  const ProbedShader all_;
+  const EvaluationTarget& b_;
+  Trace trace_;
+  std::map<std::size_t, std::vector<std::size_t>> times_;  // of a statement's values
+  std::vector<std::size_t> order_;                         // statements by when they are first executed
+  std::optional<LineDifference> found_;
+  std::size_t looked_at_ = 0;
+  bool cut_short_ = false;
+};
+
 }  // namespace
 
 FirstLine first_differing_line(Evaluator& evaluator, const ShaderSource& source, const ValueTable& table,
                                std::size_t row, const EvaluationTarget& a, const EvaluationTarget& b) {
-  const ProbedShader all = add_probes(source);
-  const Tracer tracer(evaluator, table, row);
-  const std::size_t count = std::min(tracer.run(all.source, a, 1).all, kMostValues);
-  const Trace trace = tracer.run(all.source, a, std::max<std::size_t>(count, 1));
-
-  // Statements by when they are first executed, each with the times of its values.
-  std::map<std::size_t, std::vector<std::size_t>> times;
-  std::vector<std::size_t> order;
-  for (std::size_t t = 0; t < trace.values.size(); ++t) {
-    std::vector<std::size_t>& of_statement = times[trace.values[t].statement];
-    if (of_statement.empty()) order.push_back(trace.values[t].statement);
-    of_statement.push_back(t);
-  }
-
-  FirstLine found;
-  if (order.size() > kMostStatements) order.resize(kMostStatements);
-  for (const std::size_t statement : order) {
-    const std::vector<std::size_t>& when = times[statement];
-    if (found.difference && when.front() > found.difference->time) break;
-    const Trace other = tracer.run(add_probes(source, statement).source, b, when.size());
-    for (std::size_t k = 0; k < when.size() && k < other.values.size(); ++k) {
-      const TracedValue &x = trace.values[when[k]], &y = other.values[k];
-      if (same(x, y)) continue;
-      if (!found.difference || when[k] < found.difference->time)
-        found.difference =
-            LineDifference{all.statements[statement], when[k], k + 1, x.scalar, x.components, x.bits, y.bits};
-      break;
-    }
-  }
-  if (!found.difference)
-    found.note = trace.all > kMostValues
-                     ? "none of the first " + std::to_string(kMostValues) + " values differs"
-                     : "no value differs when it is looked at: the difference needs several statements compiled as one";
-  return found;
+  return Search(evaluator, source, table, row, a, b).run();
 }
 
 }  // namespace twinshade

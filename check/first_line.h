@@ -1,7 +1,8 @@
 // The first line of a shader whose value differs between two machines, found by running it with probes
 // (cpu_shaders/rewrite/probe.h): once on one machine with all of them, which gives every value in the order of
 // execution, then on the other with one at a time, so that its compiler is disturbed as little as can be, until none
-// that is left could come before the first that differs.
+// that is left could come before the first that differs. Statements that only copy, or are about integers, go together
+// unless one of them differs.
 #pragma once
 
 #include <array>
@@ -14,7 +15,7 @@
 namespace twinshade {
 
 struct LineDifference {
-  ProbedStatement statement;
+  ProbedStatement statement;   // what: the value alone, "s.second", "P[2]"
   std::size_t time = 0;        // how many values were computed before it
   std::size_t occurrence = 1;  // which execution of the statement: 1 for the first
   Scalar scalar = Scalar::f32;

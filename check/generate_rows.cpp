@@ -213,17 +213,25 @@ void require_known(const Reflection& reflection, const std::vector<InputRange>& 
   for (const auto& input : reflection.inputs) names.push_back(input.name);
   for (const auto& uniform : reflection.uniforms) names.push_back(uniform.name);
   for (const auto& member : reflection.block_members) names.push_back(member.value.name);
-  for (const auto& resource : reflection.resources) names.push_back(resource.name);
+  const auto is_block = [](const ReflectedResource& resource) { return resource.kind == ResourceKind::uniform_block; };
+  for (const auto& resource : reflection.resources)
+    if (!is_block(resource)) names.push_back(resource.name);
   for (const InputRange& range : ranges) {
+    for (const auto& resource : reflection.resources)
+      if (resource.name == range.name && is_block(resource))
+        throw UserError(range.where + range.name + " is a block: give ranges to its members, by their GLSL path");
     if (std::find(names.begin(), names.end(), range.name) == names.end())
       throw UserError(range.where + unknown_name_message("input", range.name, names));
-    for (const auto& resource : reflection.resources)
-      if (resource.name == range.name && resource.kind == ResourceKind::uniform_block)
-        throw UserError(range.where + range.name + " is a block: give ranges to its members, by their GLSL path");
   }
 }
 
 }  // namespace
+
+void use_block_names(const Reflection& reflection, std::vector<InputRange>& ranges) {
+  for (const ReflectedBlockMember& member : reflection.block_members)
+    for (InputRange& range : ranges)
+      if (range.name == path_by_instance(member)) range.name = member.value.name;
+}
 
 ValueTable generate_rows(const Reflection& reflection, const std::vector<InputRange>& ranges,
                          const GenerateOptions& options) {

@@ -14,6 +14,9 @@ struct GenerateOptions {
   std::uint64_t seed = 1;
 };
 
+// Names members of blocks as reflection does, "Block.member", where a range says "instance.member".
+void use_block_names(const Reflection& reflection, std::vector<InputRange>& ranges);
+
 // Uniforms keep their values for an eighth of the rows. In the first quarter of the rows one input at a time is
 // special, in the second every component is with a chance of one half, the rest is random (docs/check.md lists what is
 // special). Samplers get 16 x 16 random texels, storage buffers nothing. UserError "file:line: ..." for a range of a

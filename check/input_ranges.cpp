@@ -133,7 +133,7 @@ std::vector<InputRange> declared_ranges(const ShaderSource& source) {
 
 std::vector<InputRange> ranges_in_file(const std::string& path) {
   std::vector<InputRange> ranges;
-  std::istringstream lines(read_file(path));
+  std::istringstream lines(read_file(path, kMostTextBytes));
   int number_of_line = 0;
   for (std::string line; std::getline(lines, line);) {
     ++number_of_line;

@@ -4,12 +4,15 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <optional>
+#include <set>
+#include <tuple>
 
 namespace twinshade {
 namespace {
 
 constexpr int kMostRounds = 16;
+// Groups with other uniforms than the current ones: each is a run of its own on either machine.
+constexpr std::size_t kMostUniformRuns = 384;
 
 // One scalar of a table.
 struct Slot {
@@ -22,6 +25,7 @@ struct Change {
   std::uint32_t bits = 0;
   int gain = 0;
 };
+using Changes = std::vector<Change>;  // made together
 
 Values& variable_at(ValueTable& table, const Slot& slot) {
   return slot.uniform ? table.uniforms[slot.variable] : table.inputs[slot.variable];
@@ -70,29 +74,79 @@ class Shrinker {
   }
 
   ValueTable run() {
+    uniforms_to_zero();
     for (int round = 0; round < kMostRounds && step(); ++round) {
     }
     return current_;
   }
 
  private:
-  std::vector<Change> changes() {
-    std::vector<Change> found;
+  // Most uniforms do not matter, arrays of them above all: many become zero at a time, halves where that hides the
+  // difference.
+  void uniforms_to_zero() {
+    Changes all;
+    for (const Slot& slot : slots_) {
+      if (!slot.uniform) continue;
+      const Values& values = variable_at(current_, slot);
+      const int gain = complexity(values.type.scalar, values.bits[slot.index]);
+      if (gain > 0 && slot.index < values.type.components() &&
+          allowed(find_range(ranges_, values.name), values.type, slot.index, 0))
+        all.push_back({slot, 0, gain});
+    }
+    std::vector<Changes> pieces;
+    if (!all.empty()) pieces.push_back(std::move(all));
+    while (!pieces.empty() && uniform_runs_ + pieces.size() <= kMostUniformRuns) {
+      const std::vector<bool> alone = works(pieces);
+      Changes good;
+      std::vector<Changes> rest;
+      for (std::size_t k = 0; k < pieces.size(); ++k) {
+        const auto begin = pieces[k].begin(), middle = begin + std::ptrdiff_t(pieces[k].size() / 2);
+        if (alone[k]) {
+          good.insert(good.end(), begin, pieces[k].end());
+        } else if (pieces[k].size() > 1) {
+          rest.emplace_back(begin, middle);
+          rest.emplace_back(middle, pieces[k].end());
+        }
+      }
+      const std::size_t taken = good.empty() ? 0 : take_most(good);
+      if (taken > 0 && taken < good.size()) rest.emplace_back(good.begin() + std::ptrdiff_t(taken), good.end());
+      pieces = std::move(rest);
+    }
+  }
+
+  // Those of uniforms that have failed are not tried again.
+  std::vector<Changes> changes() {
+    Changes of_inputs, of_uniforms;
     for (const Slot& slot : slots_) {
       const Values& values = variable_at(current_, slot);
       const Scalar scalar = values.type.scalar;
       const std::uint32_t bits = values.bits[slot.index];
       const InputRange* range = find_range(ranges_, values.name);
+      if (slot.uniform && slot.index >= values.type.components()) continue;  // the rows of a quad have the same
       for (const std::uint32_t simpler : simpler_values(scalar, bits)) {
         const int gain = complexity(scalar, bits) - complexity(scalar, simpler);
-        if (gain > 0 && allowed(range, values.type, slot.index, simpler)) found.push_back({slot, simpler, gain});
+        if (gain <= 0 || !allowed(range, values.type, slot.index, simpler)) continue;
+        if (!slot.uniform)
+          of_inputs.push_back({slot, simpler, gain});
+        else if (tried_.insert({slot.variable, slot.index, simpler}).second)
+          of_uniforms.push_back({slot, simpler, gain});
       }
     }
-    return found;
+    const std::size_t left = kMostUniformRuns - std::min(kMostUniformRuns, uniform_runs_);
+    if (of_uniforms.size() > left) {
+      std::stable_sort(of_uniforms.begin(), of_uniforms.end(), by_gain);
+      of_uniforms.resize(left);
+    }
+    std::vector<Changes> single;
+    for (const Changes* list : {&of_inputs, &of_uniforms})
+      for (const Change& change : *list) single.push_back({change});
+    return single;
   }
 
+  static bool by_gain(const Change& a, const Change& b) { return a.gain > b.gain; }
+
   // Copies of the current rows one behind another, each with some changes.
-  ValueTable candidates(const std::vector<std::vector<Change>>& lists) {
+  ValueTable candidates(const std::vector<Changes>& lists) {
     ValueTable table = current_;
     table.rows = current_.rows * lists.size();
     for (const bool uniform : {false, true}) {
@@ -125,14 +179,40 @@ class Shrinker {
       values.bits[(group * current_.rows + r) * components + change.slot.index % components] = change.bits;
   }
 
+  std::vector<bool> works(const std::vector<Changes>& lists) {
+    for (const Changes& list : lists)
+      if (std::any_of(list.begin(), list.end(), [](const Change& change) { return change.slot.uniform; }))
+        ++uniform_runs_;
+    return differs_(candidates(lists));
+  }
+
+  // Changes each of which works alone: makes as many of the first of them as work together, by halves where that takes
+  // runs. How many those are.
+  std::size_t take_most(const Changes& good) {
+    const bool dear = std::any_of(good.begin(), good.end(), [](const Change& change) { return change.slot.uniform; });
+    std::vector<Changes> together;
+    for (std::size_t n = good.size(); n > 0; n = dear ? n / 2 : n - 1)
+      together.emplace_back(good.begin(), good.begin() + std::ptrdiff_t(n));
+    const std::vector<bool> still = works(together);
+    const auto most = std::find(still.begin(), still.end(), true);
+    if (most == still.end()) return 0;
+    const Changes& taken = together[std::size_t(most - still.begin())];
+    for (const Change& change : taken) {
+      Values& values = variable_at(current_, change.slot);
+      const std::size_t components = values.type.components();
+      for (std::size_t i = change.slot.index % components; i < values.bits.size(); i += components)
+        if (change.slot.uniform || i == change.slot.index) values.bits[i] = change.bits;
+    }
+    return taken.size();
+  }
+
   bool step() {
-    std::vector<std::vector<Change>> single;
-    for (const Change& change : changes()) single.push_back({change});
+    const std::vector<Changes> single = changes();
     if (single.empty()) return false;
-    const std::vector<bool> alone = differs_(candidates(single));
+    const std::vector<bool> alone = works(single);
 
     // The best change of each place that works alone, largest gain first; then as many of them together as work.
-    std::vector<Change> good;
+    Changes good;
     for (std::size_t k = 0; k < single.size(); ++k) {
       if (!alone[k]) continue;
       const Change& change = single[k][0];
@@ -146,28 +226,16 @@ class Shrinker {
         *same_place = change;
     }
     if (good.empty()) return false;
-    std::stable_sort(good.begin(), good.end(), [](const Change& a, const Change& b) { return a.gain > b.gain; });
-    std::vector<std::vector<Change>> together;
-    for (std::size_t n = 1; n <= good.size(); ++n)
-      together.emplace_back(good.begin(), good.begin() + std::ptrdiff_t(n));
-    const std::vector<bool> works = differs_(candidates(together));
-    for (std::size_t n = together.size(); n-- > 0;) {
-      if (!works[n]) continue;
-      for (const Change& change : together[n]) {
-        Values& values = variable_at(current_, change.slot);
-        const std::size_t components = values.type.components();
-        for (std::size_t i = change.slot.index % components; i < values.bits.size(); i += components)
-          if (change.slot.uniform || i == change.slot.index) values.bits[i] = change.bits;
-      }
-      return true;
-    }
-    return false;
+    std::stable_sort(good.begin(), good.end(), by_gain);
+    return take_most(good) > 0;
   }
 
   ValueTable current_;
   const std::vector<InputRange>& ranges_;
   const Differs& differs_;
   std::vector<Slot> slots_;
+  std::size_t uniform_runs_ = 0;
+  std::set<std::tuple<std::size_t, std::size_t, std::uint32_t>> tried_;  // variable, index, bits of uniforms
 };
 
 }  // namespace

@@ -105,8 +105,7 @@ class Binder {
   // "instance.member" besides OpenGL's own "Block.member".
   const Values* values_of(const ReflectedBlockMember& member) const {
     if (const Values* values = find_values(table_.uniforms, member.value.name)) return values;
-    if (member.instance.empty()) return nullptr;
-    return find_values(table_.uniforms, member.instance + member.value.name.substr(member.value.name.find('.')));
+    return member.instance.empty() ? nullptr : find_values(table_.uniforms, path_by_instance(member));
   }
 
   void check_uniform(const ReflectedUniform& uniform, const Values* values, bool in_block) const {
@@ -122,7 +121,7 @@ class Binder {
     for (const ReflectedUniform& uniform : reflection_.uniforms) {
       names.push_back(uniform.name);
       known.push_back(find_values(table_.uniforms, uniform.name));
-      check_uniform(uniform, known.back(), false);
+      if (known.back() != nullptr || uniform.initial.empty()) check_uniform(uniform, known.back(), false);
     }
     for (const ReflectedBlockMember& member : reflection_.block_members) {
       if (given_as_bytes(member)) continue;
@@ -182,14 +181,15 @@ class Binder {
     group.resources.textures = table_.textures;
     group.resources.buffers = table_.buffers;
     for (const ReflectedUniform& uniform : reflection_.uniforms) {
-      const Values& values = *find_values(table_.uniforms, uniform.name);
+      const Values* values = find_values(table_.uniforms, uniform.name);
       Uniform bound;
       // OpenGL's name of an array; both machines know it without the index too.
       bound.name = uniform.name;
       bound.scalar = uniform.scalar;
       bound.columns = uniform.columns, bound.rows = uniform.rows, bound.array_length = uniform.array_length;
-      bound.values.resize(values.type.components());
-      std::memcpy(bound.values.data(), row_of(values, group), bound.values.size() * 4);
+      bound.values.resize(type_of(uniform).components());
+      const std::uint32_t* given = values != nullptr ? row_of(*values, group) : uniform.initial.data();
+      std::memcpy(bound.values.data(), given, bound.values.size() * 4);
       group.resources.uniforms.push_back(std::move(bound));
     }
     for (std::uint32_t r = 0; r < reflection_.resources.size(); ++r) bind_block(r, group);
@@ -227,6 +227,10 @@ class Binder {
 
 ValueType type_of(const ReflectedVariable& v) { return {v.scalar, v.columns, v.rows, v.array_length}; }
 ValueType type_of(const ReflectedUniform& u) { return {u.scalar, u.columns, u.rows, u.array_length}; }
+
+std::string path_by_instance(const ReflectedBlockMember& member) {
+  return member.instance.empty() ? "" : member.instance + member.value.name.substr(member.value.name.find('.'));
+}
 
 std::vector<BoundRows> bind_table(const ShaderSource& shader, const Reflection& reflection, const ValueTable& table) {
   return Binder(shader, reflection, table).bind();

@@ -19,6 +19,9 @@ struct BoundRows {
 // declaration, for storage buffers and textures where the table has none at all.
 std::vector<BoundRows> bind_table(const ShaderSource& shader, const Reflection& reflection, const ValueTable& table);
 
+// "instance.member", besides OpenGL's own "Block.member"; empty where the block has no instance name.
+std::string path_by_instance(const ReflectedBlockMember& member);
+
 ValueType type_of(const ReflectedVariable& variable);
 ValueType type_of(const ReflectedUniform& uniform);
 

@@ -66,7 +66,8 @@ class TreeBuilder final : public nlohmann::json_sax<Json> {
 
   bool null() override { return add(nullptr); }
   bool boolean(bool value) override { return add(value); }
-  bool number_integer(Json::number_integer_t value) override { return add(value); }
+  // Of integers that begin with a minus sign, 0 among them.
+  bool number_integer(Json::number_integer_t value) override { return value == 0 ? add(-0.0) : add(value); }
   bool number_unsigned(Json::number_unsigned_t value) override { return add(value); }
   bool number_float(double value, const std::string& text) override { return add(rounded_once(value, text)); }
   bool string(std::string& value) override { return add(std::move(value)); }
@@ -76,6 +77,10 @@ class TreeBuilder final : public nlohmann::json_sax<Json> {
   bool end_object() override { return close(); }
   bool end_array() override { return close(); }
   bool key(std::string& name) override {
+    if (open_.back()->contains(name)) {
+      error = origin_ + ": \"" + name + "\" stands twice in one object: keep one";
+      return false;
+    }
     key_ = name;
     return true;
   }
@@ -193,7 +198,11 @@ class CasesReader {
     const std::optional<ValueType> found = find_type(type);
     if (!found) {
       const std::string message = unknown_name_message("type", type, every_type_name());
-      fail(what + ": " + message + "; arrays are written \"vec3[4]\"");
+      const bool nested = std::count(type.begin(), type.end(), '[') > 1;
+      fail(what + ": " +
+           (nested ? "\"" + type + "\": give each array of an array of arrays by itself, as " + values.name + "[0], " +
+                         values.name + "[1] ..."
+                   : message + "; arrays are written \"vec3[4]\""));
     }
     values.type = *found;
     if (!object.contains("values") || !object["values"].is_array()) fail(what + " needs \"values\", a list of rows");
@@ -221,6 +230,8 @@ class CasesReader {
       for (const Json& item : value) append(values, item, where, depth + 1);
       return;
     }
+    if (value.is_boolean() && values.type.scalar != Scalar::boolean)
+      fail(where + ": " + shown(value) + " is no " + type_name({values.type.scalar, 1, 1, 0}));
     const double number = number_of(value, where);
     values.doubles.push_back(number);
     values.bits.push_back(bits_of(number, values.type.scalar, value, where));

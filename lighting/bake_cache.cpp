@@ -117,7 +117,7 @@ std::optional<LightBake> cached_bake(const std::string& key) {
 
 void keep_bake(const std::string& key, std::string_view bytes) {
   try {
-    write_file(bake_cache_path(key), bytes);
+    write_cached(bake_cache_path(key), bytes);
     trim_cache();
   } catch (const UserError& error) {
     std::fprintf(stderr, "twinshade: bake not cached: %s\n", error.what());

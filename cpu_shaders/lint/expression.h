@@ -45,9 +45,11 @@ struct Expression {
   bool constant = false;  // built of literals and constants alone
   bool has_zero = false;  // a floating component that is known to be zero
   bool all_zero = false;
+  bool is_number = false;       // never NaN: of constants and integers by + - *
   std::optional<long> integer;  // value, where it is a plain integer constant
   bool precise = false;         // assign and declaration: the target is `precise`; lvalues: their variable is
   std::vector<bool> written;    // call: arguments that are out or inout
+  bool converts = false;        // call: some argument's type is not its parameter's
   std::optional<std::size_t> const_token;  // declaration: its `const`
   bool is_uniform = false;                 // declaration
 };

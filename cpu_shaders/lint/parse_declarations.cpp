@@ -276,6 +276,7 @@ void Parser::declarators(Declarator declarator) {
       variable.constant = declarator.constant && value->constant;
       variable.has_zero = value->has_zero;
       variable.all_zero = value->all_zero;
+      variable.is_number = value->is_number;
       if (variable.constant) variable.integer = value->integer;
       declaration->operands.push_back(std::move(value));
     }
@@ -294,26 +295,28 @@ void Parser::block() {
   scopes_.pop_back();
 }
 
-// The part in brackets of if, while and switch; while may declare a variable.
+// The part in brackets of if, while and switch.
 void Parser::condition(Role role) {
   expect("(");
-  if (at_declaration()) {
-    const Declarator declarator = qualifiers_and_type();
-    const std::size_t name = at_;
-    take();
-    expect("=");
-    ExpressionPtr declaration = make(Expression::Kind::declaration, name);
-    declaration->type = declarator.type;
-    declaration->operands.push_back(initializer(declarator.type));
-    declaration = spanning(std::move(declaration), name);
-    listener_.expression(*declaration, Role::condition);
-    Variable variable;
-    variable.type = declarator.type;
-    declare(tokens_[name].text, variable);
-  } else {
-    full_expression(role);
-  }
+  tested(role);
   expect(")");
+}
+
+// What is tested: in while and for it may be a declaration.
+void Parser::tested(Role role) {
+  if (!at_declaration()) return full_expression(role);
+  const Declarator declarator = qualifiers_and_type();
+  const std::size_t name = at_;
+  take();
+  expect("=");
+  ExpressionPtr declaration = make(Expression::Kind::declaration, name);
+  declaration->type = declarator.type;
+  declaration->operands.push_back(initializer(declarator.type));
+  declaration = spanning(std::move(declaration), name);
+  listener_.expression(*declaration, Role::condition);
+  Variable variable;
+  variable.type = declarator.type;
+  declare(tokens_[name].text, variable);
 }
 
 void Parser::statement() {
@@ -374,7 +377,7 @@ void Parser::for_loop() {
   in_for_header_ = true;
   statement();
   in_for_header_ = false;
-  if (!is(";")) full_expression(Role::condition);
+  if (!is(";")) tested(Role::condition);
   expect(";");
   if (!is(")")) full_expression(Role::loop_header);
   expect(")");

@@ -28,6 +28,8 @@ bool all_constant(const std::vector<ExpressionPtr>& list) {
   return std::all_of(list.begin(), list.end(), [](const ExpressionPtr& e) { return e->constant; });
 }
 
+bool number(const ExpressionPtr& e) { return e->is_number || e->type.is_integer() || e->type.base == Base::boolean; }
+
 GlslType literal_type(const std::string& text) {
   const bool hexadecimal = text.size() > 1 && (text[1] == 'x' || text[1] == 'X');
   const char last = text.back();
@@ -37,6 +39,11 @@ GlslType literal_type(const std::string& text) {
     return scalar_type(Base::float64);
   const bool real = text.find_first_of(".eEfF") != std::string::npos;
   return scalar_type(real ? Base::float32 : Base::int32);
+}
+
+bool takes(const Function& function, const std::vector<ExpressionPtr>& given) {
+  return std::equal(given.begin(), given.end(), function.parameters.begin(), function.parameters.end(),
+                    [](const ExpressionPtr& e, const GlslType& t) { return e->type == t; });
 }
 
 }  // namespace
@@ -92,6 +99,7 @@ ExpressionPtr Parser::assign(std::size_t op, std::size_t first, ExpressionPtr ta
     const bool whole = root == target.get() && tokens_[op].text == "=";
     variable->has_zero = whole && value != nullptr && value->has_zero;
     variable->all_zero = whole && value != nullptr && value->all_zero;
+    variable->is_number = variable->is_number && value != nullptr && value->is_number;
   }
   made->operands.push_back(std::move(target));
   if (value) made->operands.push_back(std::move(value));
@@ -122,6 +130,7 @@ ExpressionPtr Parser::binary(int lowest_precedence) {
     ExpressionPtr right = binary(level + 1);
     made->type = binary_type(made->text, left->type, right->type);
     made->constant = left->constant && right->constant;
+    made->is_number = one_of(made->text, {"+", "-", "*"}) && number(left) && number(right);
     made->operands.push_back(std::move(left));
     made->operands.push_back(std::move(right));
     left = spanning(std::move(made), first);
@@ -144,6 +153,7 @@ ExpressionPtr Parser::unary() {
   made->constant = operand->constant;
   made->has_zero = operand->has_zero;
   made->all_zero = operand->all_zero;
+  made->is_number = operand->is_number;
   if (operand->integer && made->text == "-") made->integer = -*operand->integer;
   if (operand->integer && made->text == "+") made->integer = operand->integer;
   made->operands.push_back(std::move(operand));
@@ -160,6 +170,7 @@ ExpressionPtr Parser::postfix() {
       made->precise = object->precise;
       made->constant = object->constant;
       made->has_zero = made->all_zero = object->all_zero;
+      made->is_number = object->is_number;
       made->type = element_type(object->type);
       made->operands.push_back(std::move(object));
       made->operands.push_back(expression());
@@ -202,6 +213,7 @@ ExpressionPtr Parser::member_access(ExpressionPtr object) {
   }
   made->constant = object->constant;
   made->has_zero = made->all_zero = object->all_zero;
+  made->is_number = object->is_number;
   made->operands.push_back(std::move(object));
   return spanning(std::move(made), first);
 }
@@ -238,9 +250,7 @@ const Function* Parser::find_function(const std::string& name, const std::vector
   for (auto it = first; it != last; ++it) {
     const Function& candidate = it->second;
     if (candidate.parameters.size() != given.size()) continue;
-    const bool exact = std::equal(given.begin(), given.end(), candidate.parameters.begin(),
-                                  [](const ExpressionPtr& e, const GlslType& t) { return e->type == t; });
-    if (exact) return &candidate;
+    if (takes(candidate, given)) return &candidate;
     by_number = &candidate;
   }
   return by_number;
@@ -261,11 +271,13 @@ ExpressionPtr Parser::invocation(std::size_t name, GlslType constructed) {
     // a matrix of one scalar is zero off its diagonal
     if (constructed.is_matrix() && made->operands.size() == 1 && made->operands[0]->type.rows == 1)
       made->has_zero = true;
+    made->is_number = std::all_of(made->operands.begin(), made->operands.end(), number);
     if (constructed.is_integer() && made->operands.size() == 1) made->integer = made->operands[0]->integer;
   } else if (const Function* function = find_function(made->text, made->operands)) {
     made->kind = Kind::call;
     made->type = function->result;
     made->written = function->written;
+    made->converts = !takes(*function, made->operands);
     made->constant = false;
   } else {
     std::vector<GlslType> types;
@@ -293,6 +305,7 @@ ExpressionPtr Parser::primary() {
     if (literal->type.is_integer()) literal->integer = static_cast<long>(std::strtoul(token.text.c_str(), nullptr, 0));
     literal->has_zero = literal->all_zero =
         literal->integer ? *literal->integer == 0 : std::strtod(token.text.c_str(), nullptr) == 0.0;
+    literal->is_number = true;
     return spanning(std::move(literal), start);
   }
   if (token.kind != Token::Kind::name) lost();
@@ -313,6 +326,7 @@ ExpressionPtr Parser::primary() {
     variable->constant = known->constant;
     variable->has_zero = known->has_zero;
     variable->all_zero = known->all_zero;
+    variable->is_number = known->is_number;
     variable->integer = known->integer;
   } else if (token.text.rfind("gl_Max", 0) == 0 || token.text.rfind("gl_Min", 0) == 0) {
     variable->type = scalar_type(Base::int32);

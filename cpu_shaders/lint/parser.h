@@ -18,6 +18,7 @@ struct Variable {
   bool precise = false;
   bool constant = false;                    // const, initialised with a constant
   bool has_zero = false, all_zero = false;  // as last assigned, in the order of the text
+  bool is_number = false;                   // as every value assigned so far
   std::optional<long> integer;              // of a constant
 };
 
@@ -97,6 +98,7 @@ class Parser {
   void statement();
   void block();
   void condition(Role role);
+  void tested(Role role);
   void for_loop();
 
   // expressions

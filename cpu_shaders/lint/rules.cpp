@@ -217,6 +217,49 @@ std::string arm(const Expression& e, const Place& place) {
   return several ? e.text : "";
 }
 
+// The same value twice: alike but for parentheses and the spelling of literals.
+bool same(const Expression& a, const Expression& b) {
+  if (a.kind != b.kind) return false;
+  if (a.kind == Kind::literal && a.type.base != Base::boolean)
+    return std::strtod(a.text.c_str(), nullptr) == std::strtod(b.text.c_str(), nullptr);
+  return a.text == b.text && std::equal(a.operands.begin(), a.operands.end(), b.operands.begin(), b.operands.end(),
+                                        [](const ExpressionPtr& x, const ExpressionPtr& y) { return same(*x, *y); });
+}
+
+// Of a choice between the two values that its condition compares, the one that it takes where either is NaN.
+const Expression* taken_for_nan(const Expression& condition, const Expression& yes, const Expression& no) {
+  if (condition.kind == Kind::unary || (condition.kind == Kind::builtin && condition.text == "not"))
+    return taken_for_nan(*condition.operands[0], no, yes);
+  if (!is_comparison(condition) || one_of(condition.text, {"==", "!=", "equal", "notEqual"})) return nullptr;
+  const Expression &left = *condition.operands[0], &right = *condition.operands[1];
+  const bool chooses = (same(left, yes) && same(right, no)) || (same(left, no) && same(right, yes));
+  return chooses ? &no : nullptr;
+}
+
+// Where one is NaN, min and max give the other: no harm where the choice gives what never is NaN.
+std::string select_minmax(const Expression& e, const Place& place) {
+  if (e.type.base != Base::float32 || e.operands.size() != 3) return "";
+  const bool mixes = e.kind == Kind::builtin && e.text == "mix" && !place.precise;
+  if (e.kind != Kind::select && !mixes) return "";
+  const Expression *first = e.operands[0].get(), *second = e.operands[1].get(), *third = e.operands[2].get();
+  const Expression* taken = mixes ? taken_for_nan(*third, *second, *first) : taken_for_nan(*first, *second, *third);
+  return taken && !taken->constant && !taken->is_number ? (mixes ? e.text : "?:") : "";
+}
+
+// Without the signs and the abs around it.
+const Expression& magnitude(const Expression& e) {
+  const bool wrapped = e.kind == Kind::unary || (e.kind == Kind::builtin && e.text == "abs");
+  return wrapped ? magnitude(*e.operands[0]) : e;
+}
+
+std::string minmax_abs(const Expression& e, const Place&) {
+  const bool limits = (e.kind == Kind::builtin && one_of(e.text, {"min", "max", "clamp"})) ||
+                      (e.kind == Kind::call && one_of(e.text, {"exact_min", "exact_max", "exact_clamp"}));
+  if (!limits || e.type.base != Base::float32 || e.constant || e.operands.size() < 2) return "";
+  const Expression &a = *e.operands[0], &b = *e.operands[1];
+  return same(magnitude(a), magnitude(b)) && !same(a, b) ? e.text : "";
+}
+
 struct Row {
   LintRule rule;
   std::string (*check)(const Expression&, const Place&);
@@ -234,6 +277,14 @@ constexpr Row kTable[] = {
       "drivers may lose `precise` between the operations within an arm of ?: (NVIDIA's does): "
       "store the arm's value in a `precise` variable first"},
      arm},
+    {{"select-minmax",
+      "compilers turn a choice between the two values that its condition compares into min or max, which differ where "
+      "one is NaN: write min or max, or mix(b, a, condition) straight into a `precise` variable"},
+     select_minmax},
+    {{"minmax-abs",
+      "compilers know min and max of a value and its own negative or absolute value, but not the sign of their zero: "
+      "write x, abs(x) or -abs(x)"},
+     minmax_abs},
     {{"constant",
       "arithmetic between constants is folded in double here and in float there: "
       "write the result as one literal, its closed form in a comment"},

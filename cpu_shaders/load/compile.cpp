@@ -55,7 +55,7 @@ void build(const std::string& text, const Compiler& compiler, const CompileOptio
   }
   std::error_code ignored;
   fs::remove(source, ignored);
-  if (result.status != 0) throw_compiler_error(compiler, result, "the translated shader");
+  require_made(target, compiler, result, "the translated shader");
   seal(target);
 }
 
@@ -79,12 +79,12 @@ std::string compile_shader(const std::string& cpp, const CompileOptions& options
     touch_cached(object);
     return object;
   }
-  cache_size_limit();  // a size that is no size is an error before minutes of work, not after
+  require_writable_cache();
   // Definitions that differ between shaders are text: the precompiled runtime, which does not look at them, serves all.
   const std::string text =
       fmt::format("#define TWINSHADE_NUMBERS {}\n#define TWINSHADE_SHARED_OBJECT 1\n#line 1\n{}", options.numbers, cpp);
   const Compiler compiler = find_compiler(options.compiler);
-  write_file_with(object, [&](const std::string& temporary) { build(text, compiler, options, temporary); });
+  write_cached_with(object, [&](const std::string& temporary) { build(text, compiler, options, temporary); });
   trim_cache();
   return object;
 }

@@ -27,7 +27,16 @@ namespace fs = std::filesystem;
 bool matches_hash_file(const std::string& path) {
   std::error_code code;
   const std::string hash_file = path + ".sha256";
-  return fs::exists(path, code) && fs::exists(hash_file, code) && read_file(hash_file) == sha256_hex(read_file(path));
+  return fs::is_regular_file(path, code) && fs::is_regular_file(hash_file, code) &&
+         read_file(hash_file) == sha256_hex(read_file(path));
+}
+
+// The first line that says "error:", else the first one.
+std::string first_complaint(const std::string& output) {
+  const std::size_t error = output.find("error:");
+  const std::size_t begin =
+      error == std::string::npos ? output.find_first_not_of(" \n") : output.rfind('\n', error) + 1;
+  return begin == std::string::npos ? "" : output.substr(begin, output.find('\n', begin) - begin);
 }
 
 void compile_part(const Compiler& compiler, const std::vector<std::string>& flags,
@@ -36,8 +45,7 @@ void compile_part(const Compiler& compiler, const std::vector<std::string>& flag
   command.insert(command.end(), flags.begin(), flags.end());
   command.insert(command.end(), files.begin(), files.end());
   command.insert(command.end(), {"-o", target});
-  if (const ProgramResult result = run_program(command); result.status != 0)
-    throw_compiler_error(compiler, result, "the runtime of translated shaders");
+  require_made(target, compiler, run_program(command), "the runtime of translated shaders");
 }
 
 }  // namespace
@@ -57,16 +65,16 @@ const std::string& embedded_runtime_hash() {
 }
 
 std::string unpack_runtime() {
-  const fs::path folder = fs::path(cache_folder()) / ("runtime-" + embedded_runtime_hash().substr(0, 16));
+  const fs::path name = "runtime-" + embedded_runtime_hash().substr(0, 16);
+  const std::string folder = make_cache_folder(name.string());
   std::error_code code;
   for (const EmbeddedFile& file : embedded_runtime()) {
-    const fs::path path = folder / std::string(file.path);
-    if (fs::exists(path, code) && read_file(path.string()) == file.content) continue;
-    fs::create_directories(path.parent_path(), code);
-    write_file(path.string(), file.content);
+    const fs::path below = name / std::string(file.path);
+    const std::string path = make_cache_folder(below.parent_path().string()) + "/" + below.filename().string();
+    if (!fs::is_regular_file(path, code) || read_file(path) != file.content) write_cached(path, file.content);
   }
-  touch_cached(folder.string());
-  return folder.string();
+  touch_cached(folder);
+  return folder;
 }
 
 PreparedRuntime prepare_runtime(const std::string& runtime, const Compiler& compiler,
@@ -74,15 +82,15 @@ PreparedRuntime prepare_runtime(const std::string& runtime, const Compiler& comp
   static std::mutex mutex;  // threads wait for one instead of all making it
   const std::lock_guard lock(mutex);
   const std::string key = sha256_hex(fmt::format("{}\n{}", compiler.identity, fmt::join(flags, " "))).substr(0, 16);
-  const fs::path folder = fs::path(runtime) / ("prepared-" + key);
+  const fs::path folder = make_cache_folder((fs::path(runtime).filename() / ("prepared-" + key)).string());
   const PreparedRuntime prepared{(folder / "runtime.h").string(), (folder / "portable_math.o").string()};
   std::error_code code;
-  fs::create_directories(folder, code);
-  if (!fs::exists(prepared.header, code)) write_file(prepared.header, "#include \"cpu_shaders/runtime/runtime.h\"\n");
+  if (!fs::is_regular_file(prepared.header, code))
+    write_cached(prepared.header, "#include \"cpu_shaders/runtime/runtime.h\"\n");
   // Side by side: the first shader of all waits for both.
   std::future<void> math = std::async(std::launch::async, [&] {
     if (is_sealed(prepared.portable_math)) return;
-    write_file_with(prepared.portable_math, [&](const std::string& temporary) {
+    write_cached_with(prepared.portable_math, [&](const std::string& temporary) {
       compile_part(compiler, flags, {"-c", runtime + "/base/portable_math.cpp"}, temporary);
       seal(temporary);
     });
@@ -90,9 +98,9 @@ PreparedRuntime prepare_runtime(const std::string& runtime, const Compiler& comp
   // clang++ makes it in a second and saves half of each shader's; g++ takes five times what it saves.
   const bool is_clang = compiler.identity.find("clang") != std::string::npos;
   if (const std::string precompiled = prepared.header + ".gch"; is_clang && !matches_hash_file(precompiled)) {
-    write_file_with(precompiled, [&](const std::string& temporary) {
+    write_cached_with(precompiled, [&](const std::string& temporary) {
       compile_part(compiler, flags, {"-x", "c++-header", prepared.header}, temporary);
-      write_file(precompiled + ".sha256", sha256_hex(read_file(temporary)));
+      write_cached(precompiled + ".sha256", sha256_hex(read_file(temporary)));
     });
   }
   math.get();
@@ -104,11 +112,18 @@ void discard_prepared(const PreparedRuntime& prepared) {
   fs::remove_all(fs::path(prepared.header).parent_path(), ignored);
 }
 
-void throw_compiler_error(const Compiler& compiler, const ProgramResult& result, const std::string& what) {
-  const std::size_t error = result.output.find("error:");
-  const std::string said = result.output.substr(error == std::string::npos ? 0 : result.output.rfind('\n', error) + 1);
-  throw UserError(fmt::format("{} cannot compile {} (status {}): {}", fmt::join(compiler.command, " "), what,
-                              result.status, said.substr(0, said.find('\n'))));
+void require_made(const std::string& made, const Compiler& compiler, const ProgramResult& result,
+                  const std::string& what) {
+  std::error_code code;
+  if (result.status == 0 && fs::is_regular_file(made, code)) return;
+  const std::string command = fmt::format("{}", fmt::join(compiler.command, " "));
+  const std::string said = first_complaint(result.output);
+  if (result.status != 0 && !said.empty())
+    throw UserError(fmt::format("{} cannot compile {} (status {}): {}", command, what, result.status, said));
+  std::string end = "made no object, though its exit code is 0";
+  if (result.status > 0) end = fmt::format("failed with exit code {} and no message", result.status);
+  if (result.status < 0) end = "was killed, with no message";
+  throw UserError(fmt::format("{} cannot compile {}: it {}; set CXX to a C++ compiler that works", command, what, end));
 }
 
 }  // namespace twinshade

@@ -28,7 +28,9 @@ PreparedRuntime prepare_runtime(const std::string& runtime, const Compiler& comp
 // a new one.
 void discard_prepared(const PreparedRuntime& prepared);
 
-// The command's first complaint, one line.
-[[noreturn]] void throw_compiler_error(const Compiler& compiler, const ProgramResult& result, const std::string& what);
+// UserError, one line, unless the command succeeded and there is a file `made`: the command's first complaint, or that
+// it had none. what: was to be compiled.
+void require_made(const std::string& made, const Compiler& compiler, const ProgramResult& result,
+                  const std::string& what);
 
 }  // namespace twinshade

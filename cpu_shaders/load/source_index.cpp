@@ -28,7 +28,7 @@ IndexedSource::IndexedSource(const ShaderSource& source, const CompileOptions& o
 
 std::string IndexedSource::find() const {
   std::error_code code;
-  if (!fs::exists(path_, code)) return "";
+  if (!fs::is_regular_file(path_, code)) return "";
   const fs::path object = fs::path(path_).parent_path() / read_file(path_);
   if (object.extension() != ".so" || !is_sealed(object.string())) return "";
   touch_cached(path_);
@@ -38,7 +38,7 @@ std::string IndexedSource::find() const {
 
 void IndexedSource::remember(const std::string& object) const {
   try {
-    write_file(path_, fs::path(object).filename().string());
+    write_cached(path_, fs::path(object).filename().string());
   } catch (const UserError&) {
   }
 }

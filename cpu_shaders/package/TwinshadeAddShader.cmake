@@ -2,7 +2,7 @@
 #
 # Translates a fragment shader and compiles it into TARGET, an executable or library of this folder's CMakeLists.txt, whose sources can
 # then include "name.h": structs of the shader's uniforms, inputs and outputs, and calls, in namespace `name`.
-#   NAME     a C++ identifier; else the file's name without folder and ending
+#   NAME     a C++ identifier, no function of C and none that TARGET has; else the file's name without folder and ending
 #   INCLUDE  where the shader's #includes are looked for, after its own folder
 #   ISAS     of baseline, avx2 and avx512: what to compile for; else all. The best that the processor has is chosen at run time.
 # Translated shaders are compiled without contraction and without fast-math, whatever the project's own flags say: their results
@@ -28,6 +28,14 @@ function(twinshade_add_shader target)
   endif()
   if(NOT S_NAME MATCHES "^[A-Za-z][A-Za-z0-9_]*$")
     message(FATAL_ERROR "twinshade_add_shader: ${S_NAME} is no C++ identifier; give a NAME")
+  endif()
+  if(S_NAME STREQUAL limits)  # g++'s <limits.h> includes the next one by quotes
+    message(FATAL_ERROR "twinshade_add_shader: limits.h would stand in for the system's; give ${S_FILE} another NAME")
+  endif()
+  set(library ${target}_${S_NAME})
+  if(TARGET ${library}_translation)
+    message(FATAL_ERROR "twinshade_add_shader: there is a shader ${S_NAME} in ${target} already, or another whose "
+      "CMake targets are named ${library}_... too; give ${S_FILE} another NAME")
   endif()
   set(isas ${TWINSHADE_ISAS})
   if(S_ISAS)
@@ -60,7 +68,6 @@ function(twinshade_add_shader target)
     DEPFILE ${translation}.d
     COMMENT "Translating ${S_FILE}"
     VERBATIM)
-  set(library ${target}_${S_NAME})
   add_custom_target(${library}_translation DEPENDS ${translation} ${calls} ${folder}/${S_NAME}.h)
   add_dependencies(${target} ${library}_translation)
 
@@ -69,7 +76,8 @@ function(twinshade_add_shader target)
     _twinshade_objects(${target} ${library}_translation ${library}_${isa} ${translation} "${TWINSHADE_ISA_FLAGS_${isa}}"
       "TWINSHADE_ISA=${isa};TWINSHADE_NUMBERS=${TWINSHADE_NUMBERS_${isa}}")
   endforeach()
-  target_include_directories(${target} PRIVATE ${folder})
+  # Looked into for quotes only: a shader's time.h must not stand in for the system's <time.h>.
+  target_compile_options(${target} PRIVATE "$<$<COMPILE_LANGUAGE:C,CXX>:SHELL:-iquote \"${folder}\">")
   target_link_libraries(${target} PRIVATE twinshade::runtime)
 endfunction()
 

@@ -1,6 +1,9 @@
 #include "cpu_shaders/package/cpp_header.h"
 
 #include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
 #include <filesystem>
 
 #include "cpu_shaders/package/declaration_order.h"
@@ -32,6 +35,49 @@ std::string cpp_type(const Value& value, const std::string& real) {
   return in_arrays(scalars[int(value.scalar)], extents);
 }
 
+// Exactly this value.
+std::string float_literal(std::uint32_t bits) {
+  const float value = std::bit_cast<float>(bits);
+  if (!std::isfinite(value)) return "std::bit_cast<float>(" + std::to_string(bits) + "u)";
+  char text[32];
+  std::string literal(text, std::to_chars(text, text + sizeof text, value).ptr);
+  if (literal.find_first_of(".e") == std::string::npos) literal += ".0";
+  return literal + "f";
+}
+
+std::string literal(Scalar scalar, std::uint32_t bits) {
+  switch (scalar) {
+    case Scalar::i32:
+      return bits == 0x80000000u ? "-2147483647 - 1" : std::to_string(std::int32_t(bits));
+    case Scalar::u32:
+      return std::to_string(bits) + "u";
+    case Scalar::boolean:
+      return bits != 0 ? "true" : "false";
+    default:
+      return float_literal(bits);
+  }
+}
+
+// What the shader gives a uniform, in the braces of cpp_type's arrays; empty where that is zero.
+std::string initial_value(const ReflectedUniform& u) {
+  if (std::all_of(u.initial.begin(), u.initial.end(), [](std::uint32_t word) { return word == 0; })) return "";
+  std::vector<std::string> values;
+  for (const std::uint32_t word : u.initial) values.push_back(literal(u.scalar, word));
+  // From the innermost arrays outwards: as many values become one.
+  const auto join = [&](std::size_t count) {
+    std::vector<std::string> arrays;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      if (k % count == 0) arrays.emplace_back();
+      arrays.back() += (k % count == 0 ? "{{" : ", ") + values[k] + (k % count == count - 1 ? "}}" : "");
+    }
+    values = arrays;
+  };
+  if (u.rows > 1) join(u.rows);
+  if (u.columns > 1) join(u.columns);
+  if (u.array_length > 0) join(u.array_length);
+  return values[0];
+}
+
 const char* sampler_name(ResourceKind kind) {
   if (kind == ResourceKind::sampler_2d_array) return "sampler2DArray";
   return kind == ResourceKind::sampler_cube ? "samplerCube" : "sampler2D";
@@ -45,7 +91,7 @@ bool is_block(ResourceKind kind) { return kind == ResourceKind::uniform_block ||
 std::vector<ValueNode> uniform_tree(const Reflection& reflection) {
   std::vector<ValueNode> nodes;
   for (const ReflectedUniform& u : reflection.uniforms)
-    add_value(nodes, u.name, u.array_length, cpp_type(u, "float"), glsl_type(u));
+    add_value(nodes, u.name, u.array_length, cpp_type(u, "float"), glsl_type(u), initial_value(u));
   for (const ReflectedResource& r : reflection.resources) {
     if (r.kind == ResourceKind::uniform_block)
       add_value(nodes, r.name, 0, "std::span<const std::byte>",
@@ -56,13 +102,17 @@ std::vector<ValueNode> uniform_tree(const Reflection& reflection) {
     else
       add_value(nodes, r.name, 0, "twinshade::TextureView", sampler_name(r.kind));
   }
+  name_members(nodes, {});
   return nodes;
 }
 
-std::vector<ValueNode> variable_tree(const std::vector<ReflectedVariable>& variables) {
+// own: members beside the variables.
+std::vector<ValueNode> variable_tree(const std::vector<ReflectedVariable>& variables,
+                                     const std::vector<std::string>& own) {
   std::vector<ValueNode> nodes;
   for (const ReflectedVariable& v : variables)
     add_value(nodes, v.name, v.array_length, cpp_type(v, "Real"), glsl_type(v));
+  name_members(nodes, own);
   return nodes;
 }
 
@@ -73,7 +123,12 @@ class HeaderWriter {
         reflection_(translation.reflection),
         file_(std::filesystem::path(source.files[0]).filename().string()),
         order_(declared_names(source.text)),
-        isas_(isas) {}
+        isas_(isas),
+        uniforms_(in_order(uniform_tree(reflection_))),
+        inputs_(in_order(variable_tree(reflection_.inputs, {}))),
+        outputs_(
+            in_order(variable_tree(reflection_.outputs, reflection_.discards ? std::vector<std::string>{"discarded"}
+                                                                             : std::vector<std::string>{}))) {}
 
   std::string header() const {
     const Reflection& r = reflection_;
@@ -82,20 +137,19 @@ class HeaderWriter {
         "; changes are lost. Vectors are std::array, matrices std::array of columns.\n"
         "// All calls are safe from several threads at once; they throw std::invalid_argument where a texture or block "
         "is missing or\n// the spans differ in length.\n"
-        "#pragma once\n\n#include <array>\n#include <cstddef>\n#include <cstdint>\n#include <span>\n\n"
+        "#pragma once\n\n#include <array>\n#include <bit>\n#include <cstddef>\n#include <cstdint>\n#include <span>\n\n"
         "#include \"cpu_shaders/package/shader_types.h\"\n\nnamespace " +
         name_ + " {\n\n";
     text +=
         "// The same for all invocations; in float in double calls too. Textures and blocks stay the caller's.\nstruct "
         "Uniforms {\n" +
-        declare_values(in_order(uniform_tree(r)), "  ") + "};\n\n";
+        declare_values(uniforms_, "  ") + "};\n\n";
     text += "// Of one invocation. Real: float or double.\ntemplate <class Real>\nstruct BasicInputs {\n" +
-            declare_values(in_order(variable_tree(r.inputs)), "  ");
+            declare_values(inputs_, "  ");
     if (r.uses_frag_coord) text += "  std::array<Real, 4> gl_FragCoord{};\n";
     if (r.uses_front_facing) text += "  bool gl_FrontFacing = true;\n";
     if (r.uses_primitive_id) text += "  std::int32_t gl_PrimitiveID = 0;\n";
-    text +=
-        "};\ntemplate <class Real>\nstruct BasicOutputs {\n" + declare_values(in_order(variable_tree(r.outputs)), "  ");
+    text += "};\ntemplate <class Real>\nstruct BasicOutputs {\n" + declare_values(outputs_, "  ");
     if (r.writes_depth) text += "  Real gl_FragDepth{};\n";
     if (r.discards) text += "  bool discarded = false;  // the others are then 0\n";
     text += "};\nusing Inputs = BasicInputs<float>;\nusing Outputs = BasicOutputs<float>;\n\n";
@@ -162,7 +216,8 @@ class HeaderWriter {
         "{\n";
     for (const ReflectedUniform& u : r.uniforms) text += write_uniform(u);
     for (const ReflectedResource& resource : r.resources) {
-      const std::string value = "u." + cpp_path(resource.name), shown = "\"" + name_ + ": " + resource.name + "\"";
+      const std::string value = "u." + cpp_path(uniforms_, resource.name),
+                        shown = "\"" + name_ + ": " + resource.name + "\"";
       const std::string slot = "[" + std::to_string(resource.slot) + "] = ";
       if (is_block(resource.kind))
         text += "    buffers" + slot + "package::checked_buffer(" + value + ", " +
@@ -179,13 +234,13 @@ class HeaderWriter {
            "  twinshade::BufferView buffers" + array(r.buffer_count) + "};\n\n";
   }
 
-  static std::string write_uniform(const ReflectedUniform& u) {
+  std::string write_uniform(const ReflectedUniform& u) const {
     std::string strides;
     if (u.array_length > 0) strides += std::to_string(u.array_stride) + ", ";
     if (u.columns > 1) strides += std::to_string(u.matrix_stride) + ", ";
     return "    {\n      constexpr std::uint32_t strides[] = {" + strides +
            "4};\n      package::write_uniform(uniforms + " + std::to_string(u.offset) + ", strides, u." +
-           cpp_path(u.name) + ");\n    }\n";
+           cpp_path(uniforms_, u.name) + ");\n    }\n";
   }
 
   std::string rows_struct() const {
@@ -199,7 +254,7 @@ class HeaderWriter {
         "  template <class Block>\n  static void put([[maybe_unused]] Block& block, [[maybe_unused]] std::size_t row, "
         "[[maybe_unused]] const Inputs& in) {\n";
     for (const ReflectedVariable& v : r.inputs)
-      text += "    block.put(" + std::to_string(v.first_component) + ", row, in." + cpp_path(v.name) + ");\n";
+      text += "    block.put(" + std::to_string(v.first_component) + ", row, in." + cpp_path(inputs_, v.name) + ");\n";
     if (r.uses_frag_coord) text += "    block.put_frag_coord(row, in.gl_FragCoord);\n";
     if (r.uses_front_facing) text += "    block.front_facing[row] = in.gl_FrontFacing ? ~0u : 0;\n";
     if (r.uses_primitive_id) text += "    block.primitive_id[row] = std::uint32_t(in.gl_PrimitiveID);\n";
@@ -212,7 +267,8 @@ class HeaderWriter {
           "    if (block.kept[row] == 0) {\n      out = Outputs{};\n      out.discarded = true;\n      return;\n    "
           "}\n    out.discarded = false;\n";
     for (const ReflectedVariable& v : r.outputs)
-      text += "    block.get(" + std::to_string(v.first_component) + ", row, out." + cpp_path(v.name) + ");\n";
+      text +=
+          "    block.get(" + std::to_string(v.first_component) + ", row, out." + cpp_path(outputs_, v.name) + ");\n";
     if (r.writes_depth) text += "    out.gl_FragDepth = block.frag_depth[row];\n";
     return text + "  }\n};\n\n";
   }
@@ -243,6 +299,7 @@ class HeaderWriter {
   const std::string file_;
   const std::vector<std::string> order_;
   const std::vector<std::string>& isas_;
+  const std::vector<ValueNode> uniforms_, inputs_, outputs_;
 };
 
 }  // namespace

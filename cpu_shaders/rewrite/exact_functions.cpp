@@ -209,6 +209,11 @@ std::string ExactFunctions::diagonal(const GlslType& matrix) {
   return "exact_diagonal_" + std::to_string(matrix.columns);
 }
 
+std::string ExactFunctions::unseen(const GlslType& type) {
+  files_.insert(type.columns > 1 ? "matrix_operators" : "operators");
+  return "exact_unseen";
+}
+
 std::string ExactFunctions::text(std::vector<std::string>& files) const {
   std::string includes;
   for (const std::string& file : files_) includes += "#include \"exact/" + file + ".glsl\"\n";

@@ -28,6 +28,7 @@ class ExactFunctions {
   std::string assignment(std::string_view op, const GlslType& target, const GlslType& value, bool postfix);
   std::string with_component();                  // v, index, value: v with one component replaced
   std::string diagonal(const GlslType& matrix);  // a matrix of one scalar, and zero
+  std::string unseen(const GlslType& type);      // value, zero: the value, unknown to compilers
 
   bool empty() const { return files_.empty(); }
 

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "cpu_shaders/lint/constants.h"
 #include "cpu_shaders/lint/parser.h"
 #include "cpu_shaders/rewrite/exact_functions.h"
 #include "cpu_shaders/rewrite/token_edits.h"
@@ -27,6 +28,8 @@ bool is_comparison(const std::string& op) {
 
 bool is_arithmetic(const std::string& op) { return op == "+" || op == "-" || op == "*" || op == "/"; }
 
+bool is_integral(const GlslType& type) { return type.is_integer() || type.base == Base::boolean; }
+
 bool is_float(const GlslType& type) { return type.base == Base::float32 && type.array_dimensions == 0; }
 
 GlslType as_float(GlslType type) {
@@ -34,8 +37,14 @@ GlslType as_float(GlslType type) {
   return type;
 }
 
-bool is_integer_zero(const Expression& e) {
-  return e.kind == Kind::literal && e.type.is_integer() && e.integer && *e.integer == 0;
+bool is_zero_literal(const Expression& e) {
+  return e.kind == Kind::literal && (e.type.is_integer() || e.type.is_floating()) && e.all_zero;
+}
+
+// A square matrix of one scalar.
+bool is_diagonal(const Expression& e) {
+  return e.kind == Kind::construct && e.type.is_matrix() && e.type.columns == e.type.rows && e.operands.size() == 1 &&
+         e.operands[0]->type.rows == 1 && e.operands[0]->type.columns == 1 && e.text != "{";
 }
 
 // Nine significant digits of the float that is meant, zeros at the end left out where what is left is the float
@@ -46,49 +55,6 @@ std::string literal_text(float value) {
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
   return text;
 }
-
-// The constants that must stay constants, by name: those that array sizes, case labels, other constants than floats
-// and initial values of uniforms are made of.
-class NeededConstants : public Listener {
- public:
-  explicit NeededConstants(const TokenList& list) { Parser(list, *this).run(); }
-
-  void expression(const Expression& e, Role role) override {
-    if (role == Role::constant) return need(e);
-    if (e.kind != Kind::declaration) return;
-    if (needs_constant(e)) need(e);
-    if (e.const_token) made_of_[e.text].push_back(names(e));
-  }
-  bool has(const std::string& name) const { return names_.count(name) != 0; }
-
-  static bool is_constant(const Expression& e) {
-    return e.const_token && !e.operands.empty() && e.operands[0]->constant;
-  }
-  // Whether a declaration's value is asked to be a constant expression whatever reads it.
-  static bool needs_constant(const Expression& e) {
-    return e.is_uniform || (is_constant(e) && !e.type.is_floating() && e.type.base != Base::structure);
-  }
-
- private:
-  static std::set<std::string> names(const Expression& e) {
-    std::set<std::string> all;
-    if (e.kind == Kind::variable) all.insert(e.text);
-    for (const ExpressionPtr& operand : e.operands) all.merge(names(*operand));
-    return all;
-  }
-  void need(const Expression& e) {
-    for (const std::string& name : names(e)) need(name);
-  }
-  void need(const std::string& name) {
-    if (!names_.insert(name).second) return;
-    if (const auto found = made_of_.find(name); found != made_of_.end())
-      for (const std::set<std::string>& parts : found->second)
-        for (const std::string& part : parts) need(part);
-  }
-
-  std::set<std::string> names_;
-  std::map<std::string, std::vector<std::set<std::string>>> made_of_;
-};
 
 class MakeExact : public Listener {
  public:
@@ -128,18 +94,28 @@ class MakeExact : public Listener {
   }
 
   void expression(const Expression& e, Role role) override {
-    if (role == Role::constant || must_stay_constant(e)) return;
-    rewrite(e, {false, role == Role::condition || role == Role::selector || role == Role::result});
+    if (role == Role::constant) return;
+    if (!must_stay_constant(e))
+      rewrite(e, {Known::nothing, role == Role::condition || role == Role::selector || role == Role::result});
+    if (NeededConstants::is_constant(e)) nonzero_.declare(e);
   }
+  void function_begin(const std::string&, const GlslType& result, std::size_t) override { result_ = result; }
 
   TokenEdits edits_;
   ExactFunctions functions_;
   bool uses_zero_ = false;
 
  private:
+  // Which constants compilers may know at a place. Of what they know they compute zeros, for which they drop x + 0.0
+  // and x * 0.0 even where told to be precise.
+  enum class Known {
+    nothing,
+    nonzero,     // operand of an operation on something unknown
+    everything,  // operand of a comparison or a conversion to int
+  };
   struct Place {
-    bool compared = false;  // operand of a comparison: a zero there does no harm
-    bool used = true;       // something takes the value
+    Known known = Known::nothing;
+    bool used = true;  // something takes the value
   };
 
   bool must_stay_constant(const Expression& e) const {
@@ -179,24 +155,39 @@ class MakeExact : public Listener {
   // Each returns whether the expression, as rewritten, is no longer a constant one.
 
   bool rewrite(const Expression& e, Place place) {
+    if (!hides(e, place)) return rewrite_seen(e, place);
+    ++hidden_;
+    rewrite_seen(e, {Known::everything, true});
+    --hidden_;
+    return unseen(e, e.type);
+  }
+
+  bool rewrite_seen(const Expression& e, Place place) {
+    const Known inner = nonzero_.is_nonzero(e) ? place.known : Known::nothing;
     switch (e.kind) {
       case Kind::literal:
         return literal(e, place);
       case Kind::variable:
         return made_variable_.count(e.text) != 0;
       case Kind::binary:
-        return binary(e);
+        return binary(e, place);
       case Kind::assign:
         return assign(e, place);
       case Kind::builtin:
         return builtin(e);
       case Kind::construct:
-        return construct(e);
+        return construct(e, inner);
       case Kind::declaration:
         return declaration(e);
+      case Kind::call:
+        return call(e);
+      case Kind::result:
+        operands(e);
+        if (!e.operands.empty() && is_float(result_)) to_float(*e.operands[0]);
+        return true;
       case Kind::sequence: {
         for (std::size_t i = 0; i < e.operands.size(); ++i)
-          rewrite(*e.operands[i], {false, place.used && i + 1 == e.operands.size()});
+          rewrite(*e.operands[i], {Known::nothing, place.used && i + 1 == e.operands.size()});
         return true;
       }
       case Kind::select: {
@@ -206,14 +197,50 @@ class MakeExact : public Listener {
         return varies;
       }
       default:
-        return operands(e, place.compared) || e.kind == Kind::call;
+        return operands(e, inner);
     }
   }
 
-  bool operands(const Expression& e, bool compared = false) {
+  bool operands(const Expression& e, Known known = Known::nothing) {
     bool varies = false;
-    for (const ExpressionPtr& operand : e.operands) varies |= rewrite(*operand, {compared, true});
+    for (const ExpressionPtr& operand : e.operands) varies |= rewrite(*operand, {known, true});
     return varies;
+  }
+
+  bool hiding() const { return scope_ == ExactScope::everything && hidden_ == 0; }
+
+  // Made of what compilers know alone; a component of such a thing is too, whichever it is.
+  bool is_known(const Expression& e) const {
+    if (e.kind == Kind::index) return is_known(*e.operands[0]);
+    if (e.kind == Kind::variable && made_variable_.count(e.text) != 0 && !nonzero_.has(e.text)) return false;
+    if (e.operands.empty()) return e.constant;
+    if (e.kind == Kind::call || e.kind == Kind::assign || e.kind == Kind::declaration || e.kind == Kind::result)
+      return false;
+    return std::all_of(e.operands.begin(), e.operands.end(), [&](const ExpressionPtr& o) { return is_known(*o); });
+  }
+
+  // Whether a known value must be made unknown as a whole. Literal zeros and diagonals are taken one by one.
+  bool hides(const Expression& e, Place place) const {
+    if (!hiding() || place.known == Known::everything || type_text(e.type).empty() || !is_known(e)) return false;
+    if (place.known == Known::nonzero && nonzero_.is_nonzero(e)) return false;
+    const bool zeros =
+        e.kind == Kind::construct &&
+        std::all_of(e.operands.begin(), e.operands.end(), [](const ExpressionPtr& o) { return is_zero_literal(*o); });
+    return !is_zero_literal(e) && !zeros && !is_diagonal(e) && e.text != "{";
+  }
+
+  bool unseen(const Expression& e, const GlslType& type) {
+    uses_zero_ = true;
+    edits_.before(e.outer_first, functions_.unseen(type) + "(");
+    edits_.behind(e.outer_last - 1, std::string(", ") + kExactZero + ")");
+    return true;
+  }
+
+  // One of two values, so that compilers do not see what they have in common: in min(x, -x), or in x < y ? x : y, which
+  // they take for min. The choice between 0 and -0, or with a NaN, would be theirs.
+  void part(const Expression& left, const Expression& right) {
+    const Expression& one = is_float(left.type) && !is_known(left) ? left : right;
+    if (hiding() && is_float(one.type) && !is_known(one)) unseen(one, one.type);
   }
 
   bool zero_at(const Expression& e) {
@@ -225,21 +252,22 @@ class MakeExact : public Listener {
   bool literal(const Expression& e, Place place) {
     if (scope_ != ExactScope::everything || e.type.base != Base::float32) return false;
     const float value = std::strtof(e.text.c_str(), nullptr);
-    if (value == 0.0F && !place.compared) return zero_at(e);
+    if (value == 0.0F && hiding() && place.known != Known::everything) return zero_at(e);
     if (std::isnormal(value)) edits_.replace(e.at, literal_text(value));
     return false;
   }
 
   // An operand that GLSL converts by itself, converted in writing.
-  bool to_float(const Expression& e) {
+  bool to_float(const Expression& e, Known known = Known::nothing) {
     if (!e.type.is_integer() || e.type.array_dimensions > 0) return false;
-    if (is_integer_zero(e) && scope_ == ExactScope::everything) return zero_at(e);
+    if (is_zero_literal(e) && hiding()) return zero_at(e);
     edits_.before(e.outer_first, type_text(as_float(e.type)) + "(");
     edits_.behind(e.outer_last - 1, ")");
-    return false;
+    const bool stays = known == Known::everything || (known == Known::nonzero && nonzero_.is_nonzero(e));
+    return hiding() && !stays && unseen(e, as_float(e.type));
   }
 
-  bool binary(const Expression& e) {
+  bool binary(const Expression& e, Place place) {
     const Expression &left = *e.operands[0], &right = *e.operands[1];
     // A product of matrices is none of their components: it is outside the dialect, and left alone.
     const bool whole_matrices =
@@ -247,14 +275,18 @@ class MakeExact : public Listener {
     const bool becomes_call = !whole_matrices && is_arithmetic(e.text) && is_float(e.type) && in_scope(e) &&
                               operator_in_scope(e.text) && !type_text(as_float(left.type)).empty() &&
                               !type_text(as_float(right.type)).empty();
+    // where the whole may be known, so may its operands
+    const bool everything = is_comparison(e.text) || (place.known == Known::everything && is_known(e));
+    const Known known = everything ? Known::everything : Known::nonzero;
     bool varies;
     {
       const Argument argument(in_argument_, becomes_call);
-      varies = operands(e, is_comparison(e.text));
+      varies = operands(e, known);
     }
+    if (is_comparison(e.text) && e.text != "==" && e.text != "!=") part(left, right);
     if (!becomes_call) return varies;
-    to_float(left);
-    to_float(right);
+    to_float(left, known);
+    to_float(right, known);
     edits_.before(e.first, functions_.arithmetic(e.text, as_float(left.type), as_float(right.type)) + "(");
     edits_.replace(e.at, ",");
     edits_.behind(e.last - 1, ")");
@@ -266,9 +298,10 @@ class MakeExact : public Listener {
   // = += ++ ... where the target is a float.
   bool assign(const Expression& e, Place place) {
     const bool computes = is_float(e.type) && scope_ != ExactScope::constants && operator_in_scope(e.text);
+    const Known known = e.text == "=" ? Known::nothing : Known::nonzero;
     {
       const Argument argument(in_argument_, computes);
-      operands(e);
+      operands(e, known);
     }
     const Expression& target = *e.operands[0];
     if (!computes) return true;
@@ -279,7 +312,7 @@ class MakeExact : public Listener {
       value_type.base = Base::float32;
       value = "1.0";
     } else {
-      to_float(*e.operands[1]);
+      to_float(*e.operands[1], known);
       value_type = as_float(e.operands[1]->type);
       value = text(*e.operands[1]);
     }
@@ -311,14 +344,19 @@ class MakeExact : public Listener {
   }
 
   bool builtin(const Expression& e) {
+    const bool selects = e.text == "mix" && e.operands.size() == 3 && e.operands[2]->type.base == Base::boolean;
+    Known known = is_float(e.type) && !is_known(e) ? Known::nonzero : Known::everything;
+    if (selects) known = Known::nothing;
     bool varies;
     {
       const Argument argument(in_argument_, in_scope(e) && ExactFunctions::is_written_out(e.text));
-      varies = operands(e);
+      varies = operands(e, known);
     }
     const bool classifies = e.text == "isnan" || e.text == "isinf";
-    if ((!is_float(e.type) && !classifies) || !in_scope(e)) return varies;
-    if (e.text == "mix" && e.operands.size() == 3 && e.operands[2]->type.base == Base::boolean) return varies;
+    if (one_of(e.text, {"lessThan", "lessThanEqual", "greaterThan", "greaterThanEqual"}))
+      part(*e.operands[0], *e.operands[1]);
+    if (one_of(e.text, {"intBitsToFloat", "uintBitsToFloat"}) && hiding()) return unseen(e, e.type);
+    if ((!is_float(e.type) && !classifies) || !in_scope(e) || selects) return varies;
     std::vector<GlslType> arguments;
     for (const ExpressionPtr& argument : e.operands) {
       arguments.push_back(as_float(argument->type));
@@ -327,32 +365,59 @@ class MakeExact : public Listener {
     if (arguments.empty()) return varies;
     const std::string name = functions_.function(e.text, arguments);
     if (name.empty()) return varies;
-    for (const ExpressionPtr& argument : e.operands) to_float(*argument);
+    for (const ExpressionPtr& argument : e.operands) to_float(*argument, known);
+    if (one_of(e.text, {"min", "max", "clamp"}) && !is_known(*e.operands[0]) && !is_known(*e.operands[1]))
+      part(*e.operands[0], *e.operands[1]);
     edits_.replace(e.at, name);
     return true;
   }
 
-  bool construct(const Expression& e) {
-    bool varies = operands(e);
-    if (e.type.base != Base::float32 || scope_ != ExactScope::everything) return varies;
-    for (const ExpressionPtr& operand : e.operands)
-      if (is_integer_zero(*operand)) varies = zero_at(*operand);
-    const bool diagonal = e.type.is_matrix() && e.type.columns == e.type.rows && e.operands.size() == 1 &&
-                          e.operands[0]->type.rows == 1 && e.operands[0]->type.columns == 1 && e.text != "{";
-    if (diagonal) {
+  // An argument that GLSL converts to float, though we do not know which one: an integer of the same value.
+  void convertible(const Expression& e) {
+    if (hiding() && e.type.is_integer() && e.type.array_dimensions == 0) unseen(e, e.type);
+  }
+
+  bool call(const Expression& e) {
+    operands(e);
+    for (std::size_t i = 0; i < e.operands.size(); ++i)
+      if (e.converts && (i >= e.written.size() || !e.written[i])) convertible(*e.operands[i]);
+    return true;
+  }
+
+  // known: nothing, or all of it may be.
+  bool construct(const Expression& e, Known known) {
+    if (is_integral(e.type)) known = Known::everything;
+    bool varies = operands(e, known);
+    if (known != Known::nothing || !hiding()) return varies;
+    if (e.type.base == Base::structure)
+      for (const ExpressionPtr& operand : e.operands) convertible(*operand);
+    if (e.type.base != Base::float32) return varies;
+    bool converts = false;
+    for (const ExpressionPtr& operand : e.operands) {
+      if (is_zero_literal(*operand) && operand->type.is_integer())
+        varies = zero_at(*operand);
+      else if (type_text(e.type).empty() || e.text == "{")
+        varies |= to_float(*operand);
+      else
+        converts |= is_integral(operand->type);
+    }
+    if (is_diagonal(e)) {
       uses_zero_ = true;
       edits_.replace(e.at, functions_.diagonal(e.type));
       edits_.behind(e.operands[0]->outer_last - 1, std::string(", ") + kExactZero);
-      varies = true;
+      return true;
     }
-    return varies;
+    // what it adds of its own: the rest of a matrix
+    const bool fills = e.type.is_matrix() && e.operands.size() == 1;
+    return (converts || fills) && e.text != "{" ? unseen(e, e.type) : varies;
   }
 
   // A constant whose value is now computed by functions becomes a variable.
   bool declaration(const Expression& e) {
     if (e.operands.empty()) return false;
-    bool varies = operands(e);
-    if (is_float(e.type)) varies |= to_float(*e.operands[0]);
+    const Known known = e.const_token && nonzero_.is_nonzero(*e.operands[0]) ? Known::nonzero : Known::nothing;
+    bool varies = operands(e, known);
+    if (is_float(e.type)) varies |= to_float(*e.operands[0], known);
     if (!e.const_token) return varies;
     std::set<std::string>& names = constants_[*e.const_token];
     names.insert(e.text);
@@ -376,6 +441,9 @@ class MakeExact : public Listener {
   const TokenList& list_;
   const NeededConstants needed_;
   const ExactScope scope_;
+  NonzeroConstants nonzero_;
+  GlslType result_;  // of the function that is being read
+  int hidden_ = 0;   // within what is made unknown as a whole
   int in_argument_ = 0;
   std::set<std::string> made_variable_;
   std::map<std::size_t, std::set<std::string>> constants_;  // by their `const`

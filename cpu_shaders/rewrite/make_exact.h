@@ -11,8 +11,9 @@
 
 namespace twinshade {
 
-// A uniform float that the result reads in the place of literal zeros: it must be 0. Compilers drop x + 0.0 and x * 0.0
-// even where told to be precise, so they may not see the zero.
+// A uniform float that the result reads in the place of literal zeros, and through exact_unseen to hide what else
+// compilers know of values: it must be 0. They drop x + 0.0 and x * 0.0 even where told to be precise, so they may not
+// see a zero, nor constants that they could compute one of.
 inline constexpr const char* kExactZero = "exact_zero";
 
 struct ExactShader {

@@ -1,6 +1,7 @@
 #include "cpu_shaders/rewrite/probe.h"
 
 #include <algorithm>
+#include <set>
 
 #include "cpu_shaders/lint/parser.h"
 #include "cpu_shaders/rewrite/exact_functions.h"
@@ -18,55 +19,78 @@ constexpr const char* kPrelude = R"(flat in int probe_target;
 out uvec4 probe_value;
 out uvec4 probe_place;
 int probe_twin_count;
-void probe_twin_bits(int statement, uvec4 bits, uint is_float, uint components) {
+void probe_twin_bits(int value, uvec4 bits, uint type, uvec2 elements) {
   if (probe_twin_count == probe_target) {
     probe_value = bits;
-    probe_place = uvec4(uint(statement + 1), 0u, is_float, components);
+    probe_place = uvec4(uint(value + 1), 0u, type | elements.x, elements.y);
   }
   ++probe_twin_count;
   probe_place.y = uint(probe_twin_count);
 }
+void probe_twin_globals();
 )";
 
-// Overloads of probe_twin, which tells, and of probe_twin_condition, which also gives back what it was given.
+constexpr const char *kGlobals = "probe_twin_globals", *kThrough = "probe_twin_through";
+
+// Overloads of probe_twin, which tells, and of probe_twin_through, which also gives back what it was given.
 std::string probe_functions() {
   std::string text = kPrelude;
   struct Row {
-    const char *scalar, *prefix, *cast;
-    bool is_float;
+    const char *scalar, *prefix;
   };
-  for (const Row& row : {Row{"float", "vec", "floatBitsToUint", true}, Row{"int", "ivec", "uvec4", false},
-                         Row{"uint", "uvec", "uvec4", false}, Row{"bool", "bvec", "uvec4", false}})
-    for (int n = 1; n <= 4; ++n) {
+  unsigned scalar = 0;  // in the order of enum Scalar
+  for (const Row& row : {Row{"float", "vec"}, Row{"int", "ivec"}, Row{"uint", "uvec"}, Row{"bool", "bvec"}}) {
+    for (unsigned n = 1; n <= 4; ++n) {
       const std::string type = n == 1 ? row.scalar : row.prefix + std::to_string(n);
       const std::string padding = n == 1 ? ", 0, 0, 0" : n == 2 ? ", 0, 0" : n == 3 ? ", 0" : "";
-      const std::string four = row.is_float ? "floatBitsToUint(vec4(v" + padding + "))" : "uvec4(v" + padding + ")";
-      text += "void probe_twin(int s, " + type + " v) { probe_twin_bits(s, " + four + ", " +
-              (row.is_float ? "1u" : "0u") + ", " + std::to_string(n) + "u); }\n";
+      const std::string four = scalar == 0 ? "floatBitsToUint(vec4(v" + padding + "))" : "uvec4(v" + padding + ")";
+      const std::string told = std::to_string(scalar | n << 2) + "u";
+      text +=
+          "void probe_twin(int i, uvec2 e, " + type + " v) { probe_twin_bits(i, " + four + ", " + told + ", e); }\n";
+      text += type + " " + kThrough + "(int i, " + type + " v) { probe_twin(i, uvec2(0u), v); return v; }\n";
     }
+    ++scalar;
+  }
   for (int columns = 2; columns <= 4; ++columns)
     for (int rows = 2; rows <= 4; ++rows) {
       const std::string type = "mat" + std::to_string(columns) + (rows == columns ? "" : "x" + std::to_string(rows));
-      text += "void probe_twin(int s, " + type + " m) { ";
-      for (int c = 0; c < columns; ++c) text += "probe_twin(s, m[" + std::to_string(c) + "]); ";
-      text += "}\n";
+      text += type + " " + kThrough + "(int i, " + type + " m) {";
+      for (int c = 0; c < columns; ++c)
+        text += " probe_twin(i + " + std::to_string(c) + ", uvec2(0u), m[" + std::to_string(c) + "]);";
+      text += " return m; }\n";
     }
-  for (const char* type : {"bool", "int", "uint"})
-    text += std::string(type) + " probe_twin_condition(int s, " + type + " v) { probe_twin(s, v); return v; }\n";
   return text;
 }
 
-// Integers alone cannot differ.
-bool touches_floats(const Expression& e) {
+bool may_hold_floats(const GlslType& type) { return !type.is_integer() && type.base != Base::boolean; }
+
+// What drivers may round or rearrange as they like; what is left out copies values or is about integers alone.
+bool computes(const Expression& e) {
   return any_of_tree(e, [](const Expression& node) {
-    return node.type.is_floating() || node.type.base == Base::unknown || node.type.base == Base::structure ||
-           node.kind == Kind::call;
+    const auto floats = [](const ExpressionPtr& operand) { return may_hold_floats(operand->type); };
+    const bool any = may_hold_floats(node.type) || std::any_of(node.operands.begin(), node.operands.end(), floats);
+    const bool all = may_hold_floats(node.type) && std::all_of(node.operands.begin(), node.operands.end(), floats);
+    switch (node.kind) {
+      case Kind::unary:
+      case Kind::binary:
+      case Kind::builtin:
+      case Kind::call:
+        return any;
+      case Kind::assign:
+        return any && (!all || node.text != "=");
+      case Kind::construct:
+      case Kind::declaration:
+        return any && !all;
+      default:
+        return false;
+    }
   });
 }
 
 class Probe : public Listener {
  public:
-  Probe(const TokenList& list, std::optional<std::size_t> only) : edits_(list), list_(list), only_(only) {
+  Probe(const TokenList& list, const std::optional<std::set<std::size_t>>& only)
+      : edits_(list), list_(list), only_(only) {
     for (std::size_t i = 0; i < list.tokens.size(); ++i)
       if (list.tokens[i].text == "discard") edits_.replace(i, "");
   }
@@ -74,40 +98,51 @@ class Probe : public Listener {
     Parser parser(list_, *this);
     parser_ = &parser;
     parser.run();
+    // Behind everything, where those that stand below main are known too.
+    end_ = std::string("void ") + kGlobals + "() {";
+    for (const Target& global : globals_) end_ += tell(global.first, global.last, {global});
+    end_ += " }\n";
   }
 
-  void function_begin(const std::string& name, const GlslType& result, std::size_t body_first) override {
-    inside_ = name;
-    result_ = result;
-    if (name != "main") return;
-    std::string start = " probe_twin_count = 0; probe_value = uvec4(0u); probe_place = uvec4(0u);";
-    for (const Target& target : globals_) start += tell(target.first, target.last, {target});
-    edits_.behind(body_first, start);
+  void function_begin(const std::string& name, const GlslType&, std::size_t body_first) override {
+    function_ = name;
+    body_first_ = body_first;
+    body_last_ = closing(body_first);
+    std::size_t at = opening(body_first - 1) - 1;  // the name
+    result_last_ = at--;
+    while (list_.tokens[at].text == "]") at = opening(at) - 1;
+    result_first_ = at;
+    for (header_first_ = at; header_first_ > 0; --header_first_)
+      if (const std::string& text = list_.tokens[header_first_ - 1].text; text == ";" || text == "}") break;
+    if (is_exact(list_.tokens[body_first].file)) exact_names_.insert(name);
+    if (name == "main")
+      edits_.behind(
+          body_first,
+          std::string(" probe_twin_count = 0; probe_value = uvec4(0u); probe_place = uvec4(0u); ") + kGlobals + "();");
   }
 
   void expression(const Expression& e, Role role) override {
-    if (role == Role::constant || is_exact(e)) return;
-    if (inside_.empty()) {
-      if (e.kind == Kind::declaration && !e.operands.empty() && touches_floats(e)) globals_.push_back(target(e));
+    if (role == Role::constant || is_exact(e.file)) return;
+    if (e.first >= body_last_) {  // at global scope
+      if (e.kind == Kind::declaration && !e.operands.empty()) globals_.push_back(target(e));
       return;
     }
+    arguments(e);
     if (role == Role::condition || role == Role::selector) return condition(e);
     if (role == Role::result) {
-      if (!e.operands.empty()) returned_ = result(e);
+      if (!e.operands.empty()) result(*e.operands[0]);
       return;
     }
     collect(e, role == Role::loop_header ? headers_.back() : stored_);
   }
 
   void statement_end(std::size_t first, std::size_t last) override {
-    if (!returned_.empty()) {
-      if (const std::string start = tell(first, last, {{returned_, "result of " + inside_, result_, first, last}});
-          !start.empty()) {
+    if (!returned_.text.empty()) {
+      if (const std::string told = tell(first, last, {returned_}); !told.empty())
         edits_.collapse(first, last,
-                        "{ " + result_text() + " " + returned_ + " = " + returned_value_ + ";" + start + " return " +
-                            returned_ + "; }");
-      }
-      returned_.clear();
+                        "{ " + edits_.text(result_first_, result_last_) + " " + returned_.text + " = " +
+                            returned_value_ + ";" + told + " return " + returned_.text + "; }");
+      returned_.text.clear();
     }
     if (stored_.empty()) return;
     std::vector<Target> targets;
@@ -135,7 +170,10 @@ class Probe : public Listener {
   }
 
   TokenEdits edits_;
+  std::string end_;  // to stand behind the shader
   std::vector<ProbedStatement> statements_;
+  std::vector<ProbedValue> values_;
+  bool complete_ = true;
 
  private:
   struct Target {
@@ -144,131 +182,241 @@ class Probe : public Listener {
     GlslType type;
     std::size_t first = 0, last = 0;  // tokens of its statement
     bool declared = false;
+    bool computed = false;
   };
 
-  bool is_exact(const Expression& e) const {
-    const std::string& file = list_.files[std::size_t(e.file)];
+  bool is_exact(int number) const {
+    const std::string& file = list_.files[std::size_t(number)];
     return file == kExactFunctions || !exact_file(file).empty();
+  }
+
+  // The bracket that goes with the one at a token.
+  std::size_t closing(std::size_t at) const {
+    for (int depth = 0;; ++at) {
+      const std::string& text = list_.tokens[at].text;
+      depth += one_of(text, {"(", "[", "{"}) ? 1 : one_of(text, {")", "]", "}"}) ? -1 : 0;
+      if (depth == 0 || at + 1 == list_.tokens.size()) return at;
+    }
+  }
+  std::size_t opening(std::size_t at) const {
+    for (int depth = 0;; --at) {
+      const std::string& text = list_.tokens[at].text;
+      depth += one_of(text, {")", "]", "}"}) ? 1 : one_of(text, {"(", "[", "{"}) ? -1 : 0;
+      if (depth == 0 || at == 0) return at;
+    }
+  }
+
+  std::string without_spaces(std::size_t first, std::size_t last) const {
+    std::string text;
+    for (std::size_t i = first; i < last; ++i) text += list_.tokens[i].text;
+    return text;
   }
 
   Target target(const Expression& e) const {
     const bool declared = e.kind == Kind::declaration;
     const Expression& place = declared ? e : *e.operands[0];
     const std::string text = declared ? e.text : edits_.text(place.first, place.last);
-    std::string what;
-    for (const char c : text)
-      if (c != ' ') what += c;
-    return {text, what, place.type, e.first, e.last, declared};
+    return {
+        text,       declared ? text : without_spaces(place.first, place.last), place.type, e.first, e.last, declared,
+        computes(e)};
   }
 
   // What an expression stores, in the order in which it does.
-  void collect(const Expression& e, std::vector<Target>& targets) const {
+  void collect(const Expression& e, std::vector<Target>& targets) {
     for (const ExpressionPtr& operand : e.operands) collect(*operand, targets);
-    const bool stores = e.kind == Kind::assign || (e.kind == Kind::declaration && !e.operands.empty());
-    if (stores && touches_floats(e) && (e.kind == Kind::declaration || is_repeatable(*e.operands[0])))
-      targets.push_back(target(e));
+    const auto add = [&](Target stored) {
+      if (std::none_of(targets.begin(), targets.end(), [&](const Target& t) { return t.text == stored.text; }))
+        targets.push_back(std::move(stored));
+    };
+    if (e.kind == Kind::assign || (e.kind == Kind::declaration && !e.operands.empty())) {
+      if (e.kind == Kind::declaration || is_repeatable(*e.operands[0]))
+        add(target(e));
+      else
+        complete_ = false;
+    }
     if (e.kind != Kind::call) return;
     for (std::size_t i = 0; i < e.operands.size() && i < e.written.size(); ++i) {
-      if (!e.written[i] || !is_repeatable(*e.operands[i])) continue;
+      if (!e.written[i]) continue;
       const Expression& argument = *e.operands[i];
-      const std::string text = edits_.text(argument.first, argument.last);
-      targets.push_back({text, text, argument.type, e.first, e.last, false});
+      if (is_repeatable(argument))
+        add({edits_.text(argument.first, argument.last), without_spaces(argument.first, argument.last), argument.type,
+             e.first, e.last, false, true});
+      else
+        complete_ = false;
     }
+  }
+
+  // What is handed to the shader's own functions, told on its way there: at the line of the call.
+  void arguments(const Expression& e) {
+    for (const ExpressionPtr& operand : e.operands) arguments(*operand);
+    if (e.kind != Kind::call || exact_names_.count(e.text) != 0) return;
+    for (std::size_t i = 0; i < e.operands.size() && i < e.written.size(); ++i) {
+      const Expression& argument = *e.operands[i];
+      if (e.written[i] || argument.kind == Kind::literal) continue;
+      const std::string what = "argument " + std::to_string(i + 1) + " of " + e.text;
+      if (argument.type.array_dimensions > 0 || argument.type.base == Base::structure)
+        composed_argument(argument, what);
+      else
+        through(argument, what);
+    }
+  }
+
+  // Arrays and structures that are constructed: variables were told when they were stored, results when returned.
+  void composed_argument(const Expression& e, const std::string& what) {
+    const auto begin = list_.tokens.begin();
+    const bool local_types = std::any_of(begin + std::ptrdiff_t(body_first_), begin + std::ptrdiff_t(body_last_),
+                                         [](const Token& token) { return token.text == "struct"; });
+    if (e.kind != Kind::construct || local_types) return;
+    std::string type;
+    for (std::size_t i = e.first; i < e.last && list_.tokens[i].text != "("; ++i) {
+      if (list_.tokens[i].text == "]" && list_.tokens[i - 1].text == "[") {
+        if (e.type.array_dimensions > 1) return;
+        type += std::to_string(e.operands.size());
+      }
+      type += list_.tokens[i].text;
+    }
+    const std::string name = kThrough + ("_" + std::to_string(statements_.size()));
+    const std::string told = tell(e.first, e.last, {{"v", what, e.type, e.first, e.last, false, computes(e)}});
+    if (told.empty()) return;
+    edits_.before(header_first_, type + " " + name + "(" + type + " v) {" + told + " return v; } ");
+    edits_.before(e.outer_first, name + "(");
+    edits_.behind(e.outer_last - 1, ")");
+  }
+
+  // A value told within its expression.
+  void through(const Expression& e, const std::string& what) {
+    if (!is_basic(e.type)) return;
+    const std::string first = std::to_string(values_.size());
+    const std::size_t statement = statements_.size();
+    for (int c = 0; c < e.type.columns; ++c) {
+      values_.push_back({statement, {e.type.is_matrix() ? "[" + std::to_string(c) + "]" : ""}});
+      prefix(values_.back().name, what);
+    }
+    if (!number(e.outer_first, e.outer_last, what, computes(e))) return;
+    edits_.before(e.outer_first, kThrough + ("(" + first + ", "));
+    edits_.behind(e.outer_last - 1, ")");
+  }
+
+  static bool is_basic(const GlslType& type) {
+    return type.array_dimensions == 0 &&
+           (type.is_integer() || type.base == Base::float32 || type.base == Base::boolean);
+  }
+
+  // "s" before ".v": "s.v"; "result of f" before ".v": "(result of f).v".
+  static void prefix(std::vector<std::string>& name, const std::string& what) {
+    const bool whole = name.size() == 1 && name[0].empty();
+    name[0].insert(0, whole || what.find(' ') == std::string::npos ? what : "(" + what + ")");
   }
 
   // Numbers a statement and gives the text that tells of it: empty where it is not asked for.
   std::string tell(std::size_t first, std::size_t last, const std::vector<Target>& targets) {
     std::string text, what;
-    const std::string statement = std::to_string(statements_.size());
+    bool computed = false;
     for (const Target& target : targets) {
-      const std::string told = value(statement, target.text, target.type, 0);
-      if (told.empty()) continue;
+      const std::size_t before = values_.size();
+      const std::string told = value(target.text, {""}, target.type);
+      for (std::size_t i = before; i < values_.size(); ++i) prefix(values_[i].name, target.what);
+      if (told.empty()) {
+        complete_ = false;
+        continue;
+      }
       text += told;
       what += (what.empty() ? "" : ", ") + target.what;
+      computed = computed || target.computed;
     }
     if (text.empty()) return "";
-    return number(first, last, what) ? text : "";
+    return number(first, last, what, computed) ? text : "";
   }
 
-  bool number(std::size_t first, std::size_t last, const std::string& what) {
+  bool number(std::size_t first, std::size_t last, const std::string& what, bool computed) {
     const Token& begin = list_.tokens[first];
     const Token& end = list_.tokens[last - 1];
-    statements_.push_back(
-        {list_.files[std::size_t(begin.file)], begin.line, end.file == begin.file ? end.line : begin.line, what});
-    return !only_ || *only_ + 1 == statements_.size();
+    statements_.push_back({list_.files[std::size_t(begin.file)], begin.line,
+                           end.file == begin.file ? end.line : begin.line, what, computed});
+    return !only_ || only_->count(statements_.size() - 1) != 0;
   }
 
-  // Calls of probe_twin for a value of any type.
-  std::string value(const std::string& statement, const std::string& text, const GlslType& type, int depth) const {
+  // Calls of probe_twin for a value of any type. path: how it is reached from the target, cut where loops go through
+  // elements.
+  std::string value(const std::string& text, std::vector<std::string> path, const GlslType& type) {
     if (type.array_dimensions > 0) {
-      const std::string i = "probe_" + std::to_string(depth);
-      const std::string inner = value(statement, text + "[" + i + "]", element_type(type), depth + 1);
+      const std::string i = "probe_" + std::to_string(path.size() - 1);
+      path.emplace_back();
+      const std::string inner = value(text + "[" + i + "]", path, element_type(type));
       if (inner.empty()) return "";
       return " for (int " + i + " = 0; " + i + " < " + text + ".length(); ++" + i + ") {" + inner + " }";
     }
     if (type.base == Base::structure) {
       const auto members = parser_->structures().find(type.name);
       std::string all;
-      if (members != parser_->structures().end())
-        for (const auto& [name, member] : members->second)
-          all += value(statement, text + "." + name, member.type, depth);
+      if (members == parser_->structures().end()) return all;
+      for (const auto& [name, member] : members->second) {
+        std::vector<std::string> to_member = path;
+        to_member.back() += "." + name;
+        all += value(text + "." + name, to_member, member.type);
+      }
       return all;
     }
-    if (!type.is_integer() && type.base != Base::float32 && type.base != Base::boolean) return "";
-    return " probe_twin(" + statement + ", " + text + ");";
+    if (!is_basic(type)) return "";
+    std::string told;
+    for (int c = 0; c < type.columns; ++c) {
+      const std::string column = type.is_matrix() ? "[" + std::to_string(c) + "]" : "";
+      std::vector<std::string> name = path;
+      name.back() += column;
+      told += " probe_twin(" + std::to_string(values_.size()) + ", " + elements(path.size() - 1) + ", " + text +
+              column + ");";
+      values_.push_back({statements_.size(), std::move(name)});
+    }
+    return told;
+  }
+
+  // Where the loops around are, as kProbePlace has it.
+  static std::string elements(std::size_t loops) {
+    const std::string third = loops > 2 ? "uint(probe_2) << 16" : "0u";
+    const std::string first = loops > 0 ? "uint(probe_0)" : "0u", second = loops > 1 ? " | uint(probe_1) << 16" : "";
+    return "uvec2(" + third + ", " + first + second + ")";
   }
 
   void condition(const Expression& e) {
-    if (e.kind == Kind::declaration || e.kind == Kind::variable || e.kind == Kind::literal || !touches_floats(e))
-      return;
-    const std::string statement = std::to_string(statements_.size());
-    if (!number(e.outer_first, e.outer_last, "condition")) return;
-    edits_.before(e.outer_first, "probe_twin_condition(" + statement + ", ");
-    edits_.behind(e.outer_last - 1, ")");
+    if (e.kind == Kind::declaration || e.kind == Kind::variable || e.kind == Kind::literal) return;
+    through(e, "condition");
   }
 
-  std::string result_text() const {
-    const std::string text = type_text(result_);
-    if (!text.empty()) return text;
-    if (result_.array_dimensions > 0) return "";
-    if (result_.base == Base::structure) return result_.name;
-    const char* prefix = result_.base == Base::int32 ? "i" : result_.base == Base::uint32 ? "u" : "b";
-    const char* scalar = result_.base == Base::int32 ? "int" : result_.base == Base::uint32 ? "uint" : "bool";
-    return result_.rows > 1 ? prefix + ("vec" + std::to_string(result_.rows)) : scalar;
-  }
-
-  // The variable that holds a returned value; empty where it is not worth looking at.
-  std::string result(const Expression& e) {
-    const Expression& returned = *e.operands[0];
-    if (returned.kind == Kind::variable || returned.constant || !touches_floats(returned) || result_text().empty())
-      return "";
+  // A variable was told when it was stored.
+  void result(const Expression& returned) {
+    if (returned.kind == Kind::variable || returned.constant) return;
+    returned_ = {"probe_twin_result", "result of " + function_, returned.type, 0, 0, false, computes(returned)};
     returned_value_ = edits_.text(returned.outer_first, returned.outer_last);
-    return "probe_twin_result";
   }
 
   const TokenList& list_;
   const Parser* parser_ = nullptr;
-  const std::optional<std::size_t> only_;
-  std::string inside_;  // the function
-  GlslType result_;
+  const std::optional<std::set<std::size_t>>& only_;
+  // The function that was begun last: its tokens, from its header's first to its closing brace.
+  std::string function_;
+  std::size_t header_first_ = 0, result_first_ = 0, result_last_ = 0, body_first_ = 0, body_last_ = 0;
+  std::set<std::string> exact_names_;  // functions of shaders/exact/
   std::vector<Target> globals_, stored_;
   std::vector<std::vector<Target>> headers_;  // of the for loops around
-  std::string returned_, returned_value_;
+  Target returned_;
+  std::string returned_value_;
 };
 
 }  // namespace
 }  // namespace lint_detail
 
-ProbedShader add_probes(const ShaderSource& source, std::optional<std::size_t> only) {
+ProbedShader add_probes(const ShaderSource& source, const std::optional<std::set<std::size_t>>& only) {
   using namespace lint_detail;
-  compile_glsl(source);  // the parser relies on valid GLSL
+  if (!only) compile_glsl(source);  // the parser relies on valid GLSL
   const TokenList tokens = tokenize(source);
   Probe probe(tokens, only);
   probe.read();
 
   ProbedShader result;
   result.source = source;
-  result.statements = probe.statements_;
+  result.statements = std::move(probe.statements_);
+  result.values = std::move(probe.values_);
+  result.complete = probe.complete_;
   std::string text;
   if (source.es) {  // where every output would need a location
     result.source.version = 450;
@@ -278,7 +426,7 @@ ProbedShader add_probes(const ShaderSource& source, std::optional<std::size_t> o
   }
   text += "#line 1 \"probes\"\n" + probe_functions();
   result.source.files.emplace_back("probes");
-  result.source.text = text + probe.edits_.lines();
+  result.source.text = text + probe.edits_.lines() + "#line 1 \"probes\"\n" + probe.end_;
   return result;
 }
 

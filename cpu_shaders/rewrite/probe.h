@@ -1,9 +1,10 @@
 // A shader that tells a value from its middle: in the order of execution, what each statement stored, each condition
-// was and each function returned. Comparing those of two machines finds the first line at which they part.
+// was, each function was handed and returned. Comparing those of two machines finds the first line at which they part.
 #pragma once
 
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,23 +15,34 @@ namespace twinshade {
 struct ProbedStatement {
   std::string file;  // as in ShaderSource::files
   int line = 0, last_line = 0;
-  std::string what;  // "sum", "v.xy, i", "condition", "result of f"
+  std::string what;       // "sum", "v.xy, i", "condition", "result of f", "argument 1 of f"
+  bool computes = false;  // with floats; else it copies or is about integers alone
+};
+
+// A scalar, vector or matrix column that a statement tells of.
+struct ProbedValue {
+  std::size_t statement = 0;
+  std::vector<std::string> name;  // {"sum"}, {"s.second"}, {"P[2]"}; {"w", ".x"} where an element stands between
 };
 
 // The added input (flat int): which of the values, counted from 0 in the order of execution, goes out.
 inline constexpr const char* kProbeTarget = "probe_target";
-// The added outputs (uvec4): up to four components by bit pattern; then statement + 1 (0: there were fewer values), how
-// many values there are in all, 1 for floats, components. Discarding is left out, so that every row answers.
+// The added outputs (uvec4): up to four components by bit pattern; then the ProbedValue + 1 (0: there were fewer
+// values), how many values there are in all, Scalar | components << 2 | third element << 16, first element | second <<
+// 16 (elements of the arrays that stand between the parts of its name). Discarding is left out, so that every row
+// answers.
 inline constexpr const char* kProbeValue = "probe_value";
 inline constexpr const char* kProbePlace = "probe_place";
 
 struct ProbedShader {
   ShaderSource source;  // every line keeps its file and number
   std::vector<ProbedStatement> statements;
+  std::vector<ProbedValue> values;
+  bool complete = true;  // false: some store cannot be told of
 };
 
-// only: tell of this statement alone, so that the others compile as they would without it. UserError where the shader
-// is not valid GLSL.
-ProbedShader add_probes(const ShaderSource& source, std::optional<std::size_t> only = {});
+// only: tell of these statements alone, so that the others compile as they would without it; the shader has been
+// through with all of them. UserError where the shader is not valid GLSL.
+ProbedShader add_probes(const ShaderSource& source, const std::optional<std::set<std::size_t>>& only = {});
 
 }  // namespace twinshade

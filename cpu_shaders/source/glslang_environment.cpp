@@ -11,8 +11,13 @@ namespace {
 
 constexpr int kLatest = 450;
 
-// With the reason where it may be that the function comes with an extension.
+// With the reason or a remedy where glslang gives none.
 std::string explained(const std::string& message) {
+  for (const char* layout : {"packed", "shared"})
+    if (message.find("'" + std::string(layout) + "' : not allowed when") != std::string::npos)
+      return message + " (the layout of such a block is the driver's choice: write layout(std140))";
+  if (message.find("memory exhausted") != std::string::npos)
+    return message + " (glslang's parser: nested too deep, or a chain too long; split it)";
   static const std::regex no_function(R"('(\w+)' : no matching overloaded function found)");
   std::smatch match;
   const bool left_out = std::regex_search(message, match, no_function) && is_left_out(match[1].str());

@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "base/sanitizers.h"
+#include "cpu_shaders/source/macro_expansion.h"
 
 namespace twinshade {
 namespace {
@@ -56,17 +57,22 @@ void limit(__rlimit_resource resource, rlim_t value) {
 
 bool looks_hostile(const ShaderSource& source) {
   constexpr std::size_t kLongText = 256 << 10, kLongStatement = 8 << 10;
-  constexpr int kDeep = 16, kManyMacros = 16;
+  constexpr int kDeep = 16;
   const std::string& text = source.text;
   if (text.size() > kLongText) return true;
-  int depth = 0, macros = 0;
+  int depth = 0;
   std::size_t statement = 0;  // where it began
   for (std::size_t at = 0; at < text.size(); ++at) {
     const char c = text[at];
     depth += (c == '(' || c == '[' || c == '{') - (c == ')' || c == ']' || c == '}');
     if (c == ';' || c == '{' || c == '}' || c == '#') statement = at;
-    macros += text.compare(at, 7, "#define") == 0;
-    if (depth > kDeep || macros > kManyMacros || at - statement > kLongStatement) return true;
+    if (depth > kDeep || at - statement > kLongStatement) return true;
+  }
+  if (text.find("define") != std::string::npos) {
+    constexpr std::size_t kManyMacros = 16;
+    constexpr double kManyTokens = 4096;
+    const MacroUse use = estimate_macros(text);
+    if (use.macros > kManyMacros || use.tokens > kManyTokens) return true;
   }
   static const std::regex array_constructor(R"(\b(\w+)\s*\[[^\]]*\]\s*(?:\[[^\]]*\]\s*)*\()");
   if (text.find("precise") == std::string::npos || text.find("struct") == std::string::npos) return false;

@@ -69,7 +69,7 @@ std::optional<File> open_file(const fs::path& path) {
   file.folder = path.parent_path().string();
   const fs::path canonical = fs::weakly_canonical(path, error);
   file.identity = error ? file.shown : canonical.string();
-  file.text = unix_lines(read_file(path.string()));
+  file.text = unix_lines(read_file(path.string(), kMostBytes));
   return file;
 }
 
@@ -272,7 +272,7 @@ void require_include_folder(const std::string& folder) {
 
 ShaderSource load_shader(const std::string& path, const std::vector<std::string>& include_folders) {
   refuse_large_file(path);
-  const std::string text = read_file(path);
+  const std::string text = read_file(path, kMostBytes);
   if (text.find('\0') != std::string::npos) throw UserError(path + ": not GLSL: it has zero bytes");
   return resolve_shader(fs::path(path).stem().string(), text, path, include_folders);
 }

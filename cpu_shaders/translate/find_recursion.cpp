@@ -19,12 +19,13 @@ using CallGraph = std::map<std::string, std::vector<Call>>;
 
 class CallFinder : public glslang::TIntermTraverser {
  public:
-  explicit CallFinder(const ShaderSource& source) : source_(source) {}
+  explicit CallFinder(const ShaderSource& source) : TIntermTraverser(true, false, true), source_(source) {}
 
-  bool visitAggregate(glslang::TVisit, glslang::TIntermAggregate* node) override {
+  bool visitAggregate(glslang::TVisit visit, glslang::TIntermAggregate* node) override {
     const std::string name(node->getName().c_str());
-    if (node->getOp() == glslang::EOpFunction) caller_ = name;
-    if (node->getOp() == glslang::EOpFunctionCall && node->isUserDefined())
+    // Behind a function's end, global variables may be given values by calls.
+    if (node->getOp() == glslang::EOpFunction) caller_ = visit == glslang::EvPreVisit ? name : "";
+    if (visit == glslang::EvPreVisit && node->getOp() == glslang::EOpFunctionCall && node->isUserDefined())
       calls[caller_].push_back({name, where(node->getLoc())});
     return true;
   }

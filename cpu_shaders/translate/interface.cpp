@@ -303,14 +303,19 @@ class Describer {
     reflection_.uniforms.push_back(u);
   }
 
-  // Of the uniform block that was described last.
+  // A uniform block, or one of an array of them.
+  struct BlockElement {
+    std::uint32_t resource;
+    std::string instance;  // "b", "b[1]"; may have no name
+  };
+
   void block_leaves(const Layout& layout, Id type, const std::string& path, std::uint32_t offset,
-                    const MatrixLayout& matrix, const std::string& instance) {
+                    const MatrixLayout& matrix, const BlockElement& block) {
     const Type& t = module_.type(type);
     if (t.kind == Kind::structure) {
       for (std::uint32_t k = 0; k < t.members.size(); ++k)
         block_leaves(layout, t.members[k], path + "." + module_.member_names.at({type, k}),
-                     offset + layout.member_offset(type, k), layout.member_matrix(type, k), instance);
+                     offset + layout.member_offset(type, k), layout.member_matrix(type, k), block);
       return;
     }
     ReflectedBlockMember member;
@@ -318,7 +323,7 @@ class Describer {
     if (!describe(type, u)) {  // arrays of structs and of arrays
       for (std::uint32_t k = 0; k < t.count; ++k)
         block_leaves(layout, t.element, path + "[" + std::to_string(k) + "]", offset + k * layout.array_stride(type),
-                     matrix, instance);
+                     matrix, block);
       return;
     }
     u.name = path;
@@ -326,8 +331,8 @@ class Describer {
     u.array_stride = u.array_length != 0 ? layout.array_stride(type) : 0;
     u.matrix_stride = u.columns > 1 ? matrix.stride : 0;
     member.row_major = u.columns > 1 && matrix.row_major;
-    member.resource = static_cast<std::uint32_t>(reflection_.resources.size() - 1);
-    member.instance = instance;
+    member.resource = block.resource;
+    member.instance = block.instance;
     reflection_.block_members.push_back(member);
   }
 
@@ -338,6 +343,8 @@ class Describer {
     const Layout layout(module_, true);
     const std::uint32_t slot = reflection_.buffer_count;
     ReflectedResource r;
+    const std::string instance = module_.name(v.id);
+    const Type& members = module_.type(block_type);
     for (const std::string& suffix : module_.element_suffixes(v.type)) {
       r.name = name + suffix;
       r.kind = storage ? ResourceKind::storage_buffer : ResourceKind::uniform_block;
@@ -345,16 +352,15 @@ class Describer {
       r.minimum_size = layout.size(block_type);
       r.read_only = !storage || read_only(v, block_type);
       reflection_.resources.push_back(r);
-    }
-    if (!storage && block_type == v.type) {
-      const std::string prefix = module_.name(v.id).empty() ? "" : name + ".";
-      const Type& members = module_.type(v.type);
+      if (storage) continue;
+      const BlockElement element{static_cast<std::uint32_t>(reflection_.resources.size() - 1),
+                                 instance.empty() ? "" : instance + suffix};
+      const std::string prefix = instance.empty() ? "" : r.name + ".";
       for (std::uint32_t k = 0; k < members.members.size(); ++k)
-        block_leaves(layout, members.members[k], prefix + module_.member_names.at({v.type, k}),
-                     layout.member_offset(v.type, k), layout.member_matrix(v.type, k), module_.name(v.id));
+        block_leaves(layout, members.members[k], prefix + module_.member_names.at({block_type, k}),
+                     layout.member_offset(block_type, k), layout.member_matrix(block_type, k), element);
     }
     const bool loaded = block_type == v.type && !storage && r.minimum_size <= kLargestLoadedBlock;
-    const std::string instance = module_.name(v.id);
     Global& g = add(v, loaded ? Role::uniform : Role::buffer, instance.empty() ? name : instance);
     g.slot = slot;
     g.in_block = true;

@@ -45,7 +45,7 @@ struct ReflectedUniform {
 struct ReflectedBlockMember {
   ReflectedUniform value;      // offset: from the start of the block
   std::uint32_t resource = 0;  // index into Reflection::resources
-  std::string instance;        // of the block; may be empty
+  std::string instance;        // of the block, "b" or "b[1]"; may be empty
   bool row_major = false;      // matrices: matrix_stride is then from row to row
 };
 struct ReflectedResource {

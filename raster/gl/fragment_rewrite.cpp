@@ -324,8 +324,17 @@ class Rewriter {
     if (std::none_of(d.declarators.begin(), d.declarators.end(),
                      [](const Declarator& i) { return i.equals.has_value(); }))
       return;
-    if (d.inline_struct) fail(d.begin, "a struct defined and given a value in one global declaration: split it in two");
-    const std::string type = spelled(d.begin, d.declarators.front().name);
+    std::string type = spelled(d.begin, d.declarators.front().name);
+    if (d.inline_struct) {  // defined alone, then used by its name
+      if (tokens_[d.type + 1].text == "{") fail(d.begin, "a struct without a name that is given a value: give it a name");
+      const std::size_t first = d.declarators.front().name;
+      std::size_t close = first;
+      while (tokens_[close].text != "}") --close;
+      type = spelled(d.begin, d.type) + (d.begin == d.type ? "" : " ") + tokens_[d.type + 1].text + " " +
+             spelled(close + 1, first);
+      tokens_[close].text = "}; " + type;
+      for (std::size_t i = close + 1; i < first; ++i) tokens_[i].text.clear();
+    }
     for (const Declarator& item : d.declarators) {
       const std::string name = tokens_[item.name].text;
       const bool last = tokens_[item.end].text == ";";

@@ -138,7 +138,9 @@ std::string ShaderGenerator::head() const {
       head += "#extension GL_ARB_" + std::string(extension) + " : enable\n";
   if (!source_.es)  // what ES shaders ask for is part of desktop GLSL 4.50
     for (const std::string& extension : shader_.extensions) head += extension + "\n";
-  return head + "#line 1 " + number(kGeneratedFile) + "\n";
+  // Blocks that name no layout have the translation's: a driver's own would be as it likes.
+  return head + "#line 1 " + number(kGeneratedFile) + "\nlayout(std140) uniform;\n" +
+         (glsl_version_ == 330 ? "" : "layout(std430) buffer;\n");
 }
 
 bool ShaderGenerator::needs_triangle() const {

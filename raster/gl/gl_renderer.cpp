@@ -77,7 +77,7 @@ class GlRenderer final : public Renderer {
                                const std::array<std::uint32_t, 3>& groups, double time_limit_seconds) {
     DrawRequest request;
     const std::string version = "#version " + std::to_string(source.version) + (source.es ? " es\n" : "\n");
-    request.frame.compute = gl_text(source, version, "");
+    request.frame.compute = gl_text(source, version, "layout(std140) uniform;\nlayout(std430) buffer;\n");
     std::copy(groups.begin(), groups.end(), request.groups);
     request.time_limit_seconds = time_limit_seconds;
     put_uniforms(bundle, source, request);

@@ -19,7 +19,7 @@ float l1_nonlinear_channel(vec3 n, float c0, vec3 c1) {
   precise float cosine = exact_dot(half_slope, n) / size;
   precise float q = 0.5 + 0.5 * cosine;
   q = q > 0.0 ? q : 0.0;
-  float length_of_half_slope = size < mean ? size : mean;
+  precise float length_of_half_slope = mix(mean, size, size < mean);
   precise float ratio = length_of_half_slope / mean;
   precise float p = 1.0 + 2.0 * ratio;
   precise float a = (1.0 - ratio) / (1.0 + ratio);

@@ -12,7 +12,7 @@ const int BASIS_COUNT = 4;
 float zh3_guess(float constant, vec3 towards, vec3 axis) {
   precise float along = abs(exact_dot(towards, axis));
   precise float most = constant * 1.15470054;  // sqrt3 2/3
-  along = along < most ? along : most;
+  along = mix(most, along, along < most);
   precise float ratio = along / constant;
   precise float guess = along * (ratio * 0.337500000 + 0.0300000000);  // 0.6 9/16, 0.08 3/8
   return constant > 0.0 ? guess : 0.0;

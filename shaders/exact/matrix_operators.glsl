@@ -170,6 +170,17 @@ mat2 exact_diagonal_2(float d, float z) { return mat2(d, z, z, d); }
 mat3 exact_diagonal_3(float d, float z) { return mat3(d, z, z, z, d, z, z, z, d); }
 mat4 exact_diagonal_4(float d, float z) { return mat4(d, z, z, z, z, d, z, z, z, z, d, z, z, z, z, d); }
 
+// by column
+mat2 exact_unseen(mat2 m, float zero) { return mat2(exact_unseen(m[0], zero), exact_unseen(m[1], zero)); }
+mat2x3 exact_unseen(mat2x3 m, float zero) { return mat2x3(exact_unseen(m[0], zero), exact_unseen(m[1], zero)); }
+mat2x4 exact_unseen(mat2x4 m, float zero) { return mat2x4(exact_unseen(m[0], zero), exact_unseen(m[1], zero)); }
+mat3x2 exact_unseen(mat3x2 m, float zero) { return mat3x2(exact_unseen(m[0], zero), exact_unseen(m[1], zero), exact_unseen(m[2], zero)); }
+mat3 exact_unseen(mat3 m, float zero) { return mat3(exact_unseen(m[0], zero), exact_unseen(m[1], zero), exact_unseen(m[2], zero)); }
+mat3x4 exact_unseen(mat3x4 m, float zero) { return mat3x4(exact_unseen(m[0], zero), exact_unseen(m[1], zero), exact_unseen(m[2], zero)); }
+mat4x2 exact_unseen(mat4x2 m, float zero) { return mat4x2(exact_unseen(m[0], zero), exact_unseen(m[1], zero), exact_unseen(m[2], zero), exact_unseen(m[3], zero)); }
+mat4x3 exact_unseen(mat4x3 m, float zero) { return mat4x3(exact_unseen(m[0], zero), exact_unseen(m[1], zero), exact_unseen(m[2], zero), exact_unseen(m[3], zero)); }
+mat4 exact_unseen(mat4 m, float zero) { return mat4(exact_unseen(m[0], zero), exact_unseen(m[1], zero), exact_unseen(m[2], zero), exact_unseen(m[3], zero)); }
+
 float exact_determinant(mat2 m) {
   precise float value = m[0].x * m[1].y - m[1].x * m[0].y;
   return value;

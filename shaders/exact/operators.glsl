@@ -22,3 +22,15 @@ vec3 exact_with(vec3 v, int i, float x) { return vec3(i == 0 ? x : v.x, i == 1 ?
 vec4 exact_with(vec4 v, int i, float x) {
   return vec4(i == 0 ? x : v.x, i == 1 ? x : v.y, i == 2 ? x : v.z, i == 3 ? x : v.w);
 }
+
+// A value that no compiler can know: with the bits of zero, a uniform that is 0, every bit stays as it is.
+#define EXACT_UNSEEN(type, bits)                                              \
+  type exact_unseen(type x, float zero) {                                     \
+    return uintBitsToFloat(floatBitsToUint(x) | bits(floatBitsToUint(zero))); \
+  }
+#define EXACT_UNSEEN_INTEGER(type) \
+  type exact_unseen(type x, float zero) { return x | type(floatBitsToUint(zero)); }
+
+EXACT_UNSEEN(float, uint) EXACT_UNSEEN(vec2, uvec2) EXACT_UNSEEN(vec3, uvec3) EXACT_UNSEEN(vec4, uvec4)
+EXACT_UNSEEN_INTEGER(int) EXACT_UNSEEN_INTEGER(ivec2) EXACT_UNSEEN_INTEGER(ivec3) EXACT_UNSEEN_INTEGER(ivec4)
+EXACT_UNSEEN_INTEGER(uint) EXACT_UNSEEN_INTEGER(uvec2) EXACT_UNSEEN_INTEGER(uvec3) EXACT_UNSEEN_INTEGER(uvec4)

@@ -259,4 +259,24 @@ TEST_CASE("a refusal after drawing has begun leaves no partial file") {
   CHECK(output.names().empty());
 }
 
+TEST_CASE("a file without an end is refused by name, whatever it is given as") {
+  const Folder folder;
+  const std::string shader = folder.file("a.frag", "#version 450\nout vec4 color;\nvoid main() { color = vec4(1); }\n");
+  check_refused({"translate", "/dev/zero"}, {"/dev/zero: has more than"});
+  check_refused({"eval", shader, "--cases", "/dev/zero", "--on", "cpu"}, {"/dev/zero: has more than 256 MiB"});
+}
+
+TEST_CASE("a misspelt folder of cases is said to be missing, one that cannot be read is named") {
+  const Folder folder;
+  check_refused({"eval", folder / "no", "--on", "cpu"}, {"no: there is no such file or folder"});
+  check_refused({"eval", folder.file("a.frag", ""), "--on", "cpu"}, {"--cases is missing"});
+  if (::geteuid() == 0) {
+    MESSAGE("not tested: root may read every folder");
+    return;
+  }
+  std::filesystem::create_directories(folder / "shut");
+  std::filesystem::permissions(folder / "shut", std::filesystem::perms::none);
+  check_refused({"eval", folder / "shut", "--on", "cpu"}, {"shut: cannot be read: Permission denied"});
+}
+
 }  // namespace twinshade

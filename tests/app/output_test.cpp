@@ -1,10 +1,33 @@
 // Where output goes, and what the verbs that only show say.
 #include <doctest/doctest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 
+#include "base/file.h"
 #include "run_twinshade.h"
 
 namespace twinshade {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Of a shell: `line` begins with the program's arguments. Exit status; stderr is kept in `err`.
+int run_in_shell(const Folder& folder, const std::string& line, std::string& err) {
+  const std::string errors = folder / "err";
+  const int status = std::system(("{ '" TWINSHADE_BINARY "' " + line + "; } 2>'" + errors + "'").c_str());
+  err = read_file(errors);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+constexpr const char* kShader = "#version 450\nin float x;\nout float y;\nvoid main() { y = x + 1.0; }\n";
+constexpr const char* kCases = R"({"values": {"inputs": [{"name": "x", "type": "float", "values": [1, 2]}],
+                                             "outputs": [{"name": "y", "type": "float", "values": [2, 3]}]}})";
+
+}  // namespace
 
 TEST_CASE("help and version succeed on stdout") {
   for (const char* option : {"--help", "--version"}) {
@@ -73,6 +96,79 @@ TEST_CASE("translate writes C++ that names its GLSL") {
   CHECK(text.find("cpu_shaders/runtime/runtime.h") != std::string::npos);
   CHECK(text.find("shaders/basis/h4.glsl") != std::string::npos);
   CHECK(run_twinshade({"translate", "h4"}).out == text);
+}
+
+TEST_CASE("a stdout that is full or closed is one line and a failure") {
+  const Folder folder;
+  for (const char* arguments : {"translate h4", "list", "list --json -", "--help", "list --help"})
+    for (const char* stdout_is : {">/dev/full", ">&-"}) {
+      CAPTURE(arguments);
+      CAPTURE(stdout_is);
+      std::string err;
+      CHECK(run_in_shell(folder, std::string(arguments) + " " + stdout_is, err) == 2);
+      CHECK_MESSAGE(err.find("twinshade: stdout: cannot be written: ") != std::string::npos, err);
+    }
+}
+
+TEST_CASE("a reader that has enough ends the program without a word") {
+  const Folder folder;
+  std::string err;
+  CHECK(run_in_shell(folder, "translate h4 | head -n 1 >/dev/null", err) == 0);
+  CHECK(err.empty());
+}
+
+TEST_CASE("results go to pipes, links and stdout, which stay what they are") {
+  const Folder folder;
+  std::string err;
+  const std::string pipe = folder / "pipe", link = folder / "link.json", out = folder / "out.json";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  const std::string table = " >'" + (folder / "table") + "'";
+  CHECK(run_in_shell(folder,
+                     "list techniques --json '" + pipe + "'" + table + " & cat '" + pipe + "' >'" + out + "'; wait $!",
+                     err) == 0);
+  CHECK_MESSAGE(err.empty(), err);
+  CHECK(fs::is_fifo(pipe));
+  CHECK(nlohmann::json::parse(read_file(out))["techniques"].size() > 0);
+
+  fs::create_symlink("linked.json", link);
+  CHECK(run_twinshade({"list", "techniques", "--json", link}).code == 0);
+  CHECK(fs::is_symlink(link));
+  CHECK(read_file(folder / "linked.json") == read_file(out));
+
+  const Run both = run_twinshade({"list", "techniques", "--json", "/dev/stdout"});
+  CHECK(both.out == read_file(folder / "table") + read_file(out));
+}
+
+TEST_CASE("JUnit XML goes to stdout if asked, alone, but not beside JSON") {
+  const Folder folder;
+  const std::vector<std::string> eval{
+      "eval", folder.file("a.frag", kShader), "--cases", folder.file("a.json", kCases), "--on", "cpu", "--junit", "-"};
+  const Run run = run_twinshade(eval);
+  CHECK_MESSAGE(run.code == 0, run.err);
+  CHECK_MESSAGE(run.out.find("<?xml") == 0, run.out);
+  CHECK_MESSAGE(run.out.ends_with("</testsuites>\n"), run.out);
+  CHECK(!run.err.empty());
+  CHECK(folder.names() == std::vector<std::string>{"a.frag", "a.json"});
+  std::vector<std::string> both = eval;
+  both.insert(both.end(), {"--json", "-"});
+  const Run refused = run_twinshade(both);
+  CHECK(refused.code == 2);
+  CHECK(refused.out.empty());
+  CHECK(refused.err == "twinshade: --json - and --junit -: both go to stdout; name a file for one of them\n");
+}
+
+TEST_CASE("files of eval are there even where nobody reads the text") {
+  const Folder folder;
+  std::string err;
+  folder.file("a.frag", kShader);
+  folder.file("a.json", kCases);
+  run_in_shell(folder,
+               "eval '" + (folder / "a.frag") + "' --cases '" + (folder / "a.json") + "' --on cpu --junit '" +
+                   (folder / "out.xml") + "' --json '" + (folder / "out.json") + "' | true",
+               err);
+  CHECK_MESSAGE(err.empty(), err);
+  CHECK(read_file(folder / "out.xml").find("tests=\"1\"") != std::string::npos);
+  CHECK(nlohmann::json::parse(read_file(folder / "out.json"))["cases"].size() == 1);
 }
 
 }  // namespace twinshade

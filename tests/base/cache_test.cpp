@@ -89,9 +89,16 @@ TEST_CASE("a cache in a folder with other files leaves them alone") {
 TEST_CASE("temporaries of processes that were killed go, those of living ones stay") {
   const Cache cache;
   const std::string old = cache.add(".twinshade-1-0.so", 10, kDay), young = cache.add(".twinshade-2-0.so", 10, kNow);
+  const std::string within = "runtime-" + kKey + "/prepared-" + kKey + "/";
+  const std::string old_within = cache.add(within + ".twinshade-1-1.gch", 10, kDay),
+                    young_within = cache.add(within + ".twinshade-2-1.gch", 10, kNow),
+                    whole = cache.add(within + "runtime.h.gch", 10, kDay),
+                    theirs = cache.add("other/.twinshade-1-1.gch", 10, kDay);
   trim_cache();
   CHECK(!fs::exists(old));
   CHECK(fs::exists(young));
+  CHECK(!fs::exists(old_within));
+  for (const std::string& path : {young_within, whole, theirs}) CHECK_MESSAGE(fs::exists(path), path);
 }
 
 TEST_CASE("the size of the cache is read with its unit, and nonsense is refused by name") {
@@ -110,6 +117,7 @@ TEST_CASE("the size of the cache is read with its unit, and nonsense is refused 
   for (const char* text : {"many", "5X", "5MB", "-1", "1.5G", "M", "99999999999T", "99999999999999999999"}) {
     setenv("TWINSHADE_CACHE_SIZE", text, 1);
     CHECK_THROWS_WITH_AS(cache_size_limit(), doctest::Contains("TWINSHADE_CACHE_SIZE="), UserError);
+    CHECK_THROWS_WITH_AS(cache_folder(), doctest::Contains("TWINSHADE_CACHE_SIZE="), UserError);
   }
 }
 
@@ -132,4 +140,47 @@ TEST_CASE("a sealed file is known from a truncated, changed or unsealed one") {
     CHECK(!is_sealed(path));
   }
   CHECK(!is_sealed(path + ".missing"));
+  fs::create_directories(path + ".folder");
+  CHECK(!is_sealed(path + ".folder"));
+  fs::create_symlink("/dev/zero", path + ".endless");
+  CHECK(!is_sealed(path + ".endless"));
+}
+
+TEST_CASE("what is written to the cache takes the place of folders and links") {
+  const Cache cache;
+  const std::string outside = cache.add("theirs", 3, kNow), entry = cache.folder + "/shader-" + kKey + ".so";
+  write_cached(entry, "new");
+  fs::remove(entry);
+  fs::create_directories(entry + "/within");
+  write_cached(entry, "one");
+  CHECK(read_file(entry) == "one");
+  fs::remove(entry);
+  fs::create_symlink(outside, entry);
+  write_cached_with(entry, [](const std::string& temporary) { write_file(temporary, "two"); });
+  CHECK(!fs::is_symlink(entry));
+  CHECK(read_file(entry) == "two");
+  CHECK(read_file(outside) == "xxx");
+}
+
+TEST_CASE("a folder of the cache takes the place of files, and folders stay") {
+  const Cache cache;
+  const std::string name = "runtime-" + kKey, kept = cache.add(name + "/base/a.h", 1, kNow);
+  CHECK(make_cache_folder(name + "/base") == cache.folder + "/" + name + "/base");
+  CHECK(fs::exists(kept));
+  cache.add("runtime-" + kOtherKey, 1, kNow);
+  CHECK(fs::is_directory(make_cache_folder("runtime-" + kOtherKey + "/base")));
+}
+
+TEST_CASE("a cache that may not be written is said to be that") {
+  const Cache cache;
+  fs::permissions(cache.folder,
+                  fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);
+  const bool root = geteuid() == 0;
+  if (root) REQUIRE(seteuid(65534) == 0);  // root may write everywhere
+  CHECK_THROWS_WITH_AS(require_writable_cache(), doctest::Contains("cannot be written: Permission denied; set TWINSH"),
+                       UserError);
+  CHECK_THROWS_WITH_AS(make_cache_folder("runtime-" + kKey), doctest::Contains("TWINSHADE_CACHE"), UserError);
+  if (root) REQUIRE(seteuid(0) == 0);
+  fs::permissions(cache.folder, fs::perms::owner_all);
+  CHECK_NOTHROW(require_writable_cache());
 }

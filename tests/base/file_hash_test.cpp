@@ -1,8 +1,13 @@
 #include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <thread>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -71,4 +76,103 @@ TEST_CASE("a path that cannot be read or written is named in one line") {
     }
   }
   CHECK_THROWS_AS(write_file((folder.path / "no" / "folder.txt").string(), "x"), UserError);
+}
+
+TEST_CASE("what has no end, or more than is read of it, is refused while reading") {
+  TemporaryFolder folder;
+  const std::string path = (folder.path / "a.txt").string();
+  write_file(path, std::string(100, 'x'));
+  CHECK(read_file(path, 100).size() == 100);
+  CHECK_THROWS_WITH_AS(read_file(path, 99), doctest::Contains("a.txt: has more than 99 bytes"), UserError);
+  CHECK_THROWS_WITH_AS(read_file("/dev/zero", kMostTextBytes), doctest::Contains("/dev/zero: has more than 4 MiB"),
+                       UserError);
+  fs::resize_file(path, std::uintmax_t{1} << 42);  // takes no room
+  CHECK_THROWS_WITH_AS(read_file(path), doctest::Contains("a.txt needs 4096.0 GiB of memory"), UserError);
+}
+
+TEST_CASE("a pipe is read to its end") {
+  TemporaryFolder folder;
+  const std::string pipe = (folder.path / "pipe").string(), content(200000, 'x');
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  std::thread writer([&] { std::ofstream(pipe, std::ios::binary) << content; });
+  CHECK(read_file(pipe, content.size()) == content);
+  writer.join();
+}
+
+TEST_CASE("a link stays, and the file that it leads to is replaced") {
+  TemporaryFolder folder;
+  const auto path = [&](const char* name) { return (folder.path / name).string(); };
+  fs::create_directories(path("store"));
+  write_file(path("store/a"), "old");
+  fs::create_symlink("store/a", path("link"));
+  fs::create_symlink(path("link"), path("second"));
+  fs::create_symlink("store/new", path("dangling"));
+  for (const char* name : {"link", "second"}) {
+    write_file(path(name), name);
+    CHECK(fs::is_symlink(path(name)));
+    CHECK(read_file(path("store/a")) == name);
+  }
+  write_file(path("dangling"), "new");
+  CHECK(fs::is_symlink(path("dangling")));
+  CHECK(read_file(path("store/new")) == "new");
+  CHECK(files_in(path("store")) == 2);
+
+  fs::create_symlink("circle", path("circle"));
+  CHECK_THROWS_WITH_AS(write_file(path("circle"), "x"), doctest::Contains("cannot be written"), UserError);
+  fs::create_symlink("nowhere/a", path("lost"));
+  CHECK_THROWS_WITH_AS(require_writable_file(path("lost")), doctest::Contains("does not exist"), UserError);
+}
+
+TEST_CASE("what is written to a pipe arrives there, whoever writes the file") {
+  TemporaryFolder folder;
+  const std::string pipe = (folder.path / "pipe.png").string();
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  require_writable_file(pipe);
+  std::string received;
+  const auto receive = [&] { received = read_file(pipe); };
+  std::thread first(receive);
+  write_file(pipe, "whole");
+  first.join();
+  CHECK(received == "whole");
+  std::thread second(receive);
+  write_file_with(pipe, [](const std::string& temporary) {
+    CHECK(temporary.ends_with(".png"));
+    std::ofstream(temporary) << "by itself";
+  });
+  second.join();
+  CHECK(received == "by itself");
+  CHECK(fs::is_fifo(pipe));
+  CHECK(files_in(folder.path) == 1);
+}
+
+TEST_CASE("a descriptor of this process, as /dev/stdout is one, is written to where it stands") {
+  TemporaryFolder folder;
+  const std::string path = (folder.path / "out").string();
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT, 0600);
+  REQUIRE(descriptor >= 0);
+  REQUIRE(::write(descriptor, "text\n", 5) == 5);
+  for (const char* kind : {"/dev/fd/", "/proc/self/fd/"}) {
+    const std::string name = kind + std::to_string(descriptor);
+    require_writable_file(name);
+    write_file(name, "more\n");
+  }
+  ::close(descriptor);
+  CHECK(read_file(path) == "text\nmore\nmore\n");
+}
+
+TEST_CASE("a device stays one, and says when it is full") {
+  TemporaryFolder folder;
+  const std::string null = (folder.path / "null").string(), full = (folder.path / "full").string();
+  const bool made = ::mknod(null.c_str(), S_IFCHR | 0600, makedev(1, 3)) == 0 &&
+                    ::mknod(full.c_str(), S_IFCHR | 0600, makedev(1, 7)) == 0;
+  const int opened = made ? ::open(null.c_str(), O_WRONLY) : -1;
+  if (opened < 0) {
+    MESSAGE("devices cannot be made here: not tried");
+    return;
+  }
+  ::close(opened);
+  write_file(null, "gone");
+  CHECK_THROWS_WITH_AS(write_file(full, "x"), doctest::Contains("full: cannot be written: No space left"), UserError);
+  CHECK(fs::is_character_file(null));
+  CHECK(fs::is_character_file(full));
 }

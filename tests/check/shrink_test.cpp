@@ -63,4 +63,23 @@ TEST_CASE("changes that work only one at a time still end") {
   CHECK((at(small.inputs[0], 0) == 0.0f) != (at(small.inputs[1], 0) == 0.0f));
 }
 
+TEST_CASE("a long array of uniforms becomes zero but for what matters, in few runs") {
+  constexpr std::size_t kLength = 192, kNeeded = 77;
+  ValueTable table = table_of(1, 1, 1);
+  table.uniforms = {floats("samples", std::vector<float>(kLength, 0.77f))};
+  table.uniforms[0].type.array_length = kLength;
+  std::size_t runs = 0;
+  const ValueTable small = shrink(table, {}, [&](const ValueTable& rows) {
+    std::vector<bool> differs(rows.rows);
+    const std::vector<std::uint32_t>& bits = rows.uniforms[0].bits;
+    for (std::size_t row = 0; row < rows.rows; ++row)
+      differs[row] = bits[(bits.size() == kLength ? 0 : row * kLength) + kNeeded] != 0;
+    runs += rows.rows;
+    return differs;
+  });
+  for (std::size_t i = 0; i < kLength; ++i) CHECK((small.uniforms[0].bits[i] != 0) == (i == kNeeded));
+  CHECK(std::bit_cast<float>(small.uniforms[0].bits[kNeeded]) == 1.0f);
+  CHECK(runs < 200);
+}
+
 }  // namespace twinshade

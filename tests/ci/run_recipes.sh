@@ -33,7 +33,7 @@ github_commands() {
   awk -v step="$1" '/^      - / { on = $0 == "      - name: " step; block = 0 } !on { next }
        block { print } /^        run: \|$/ { block = 1; next } !block && sub(/^        run: /, "")' \
     "$source/docs/ci/github-actions.yml" |
-    sed -e 's/\${{ vars\.TWINSHADE_REF }}/'"$TWINSHADE_REF"'/; s#\${{ vars\.TWINSHADE_REPOSITORY }}#'"$TWINSHADE_REPOSITORY"'#'
+    sed -e 's/\${{ vars\.TWINSHADE_REF }}/'"$TWINSHADE_REF"'/g; s#\${{ vars\.TWINSHADE_REPOSITORY }}#'"$TWINSHADE_REPOSITORY"'#'
 }
 here_paths() { sed -e '/apt-get/d; /packages\.sh/d' -e "s#/tmp/twinshade#$work/clone#g; s#/opt/twinshade#$work/installed#g"; }
 
@@ -42,12 +42,14 @@ new_project() {
   mkdir -p "$1"
   cp -r "$here/shaders" "$1/shaders"
 }
-# A commit behind the one that was built, and a cmake that only tells of it: with exit code 7.
+# Makes a branch, or moves it: to a commit behind the one that is built.
+set_branch() {
+  local git=(git -C "$work/twinshade.git" -c user.name=test -c user.email=test@example.com)
+  "${git[@]}" update-ref "refs/heads/$1" "$("${git[@]}" commit-tree -m moved -p recipe 'recipe^{tree}')"
+}
+# With a cmake that only tells of it: by exit code 7.
 move_branch() {
-  local tree
-  tree=$(git -C "$work/twinshade.git" rev-parse 'recipe^{tree}')
-  git -C "$work/twinshade.git" update-ref refs/heads/recipe \
-    "$(git -C "$work/twinshade.git" -c user.name=test -c user.email=test@example.com commit-tree -m moved -p recipe "$tree")"
+  set_branch recipe
   mkdir -p "$work/stub"
   printf '#!/bin/sh\nexit 7\n' >"$work/stub/cmake"
   chmod +x "$work/stub/cmake"
@@ -67,9 +69,10 @@ expect 1 gitlab-broken bash "$work/gitlab.sh"
 grep -q '<failure' "$work/gitlab/eval.xml" || fail "GitLab: eval.xml names no failure"
 
 echo "GitHub"
-export GITHUB_PATH=$work/github_path TWINSHADE_CACHE=$work/github/.twinshade-cache
+export GITHUB_PATH=$work/github_path GITHUB_OUTPUT=$work/github_output TWINSHADE_CACHE=.twinshade-cache
 new_project "$work/github"
 : >"$GITHUB_PATH"
+: >"$GITHUB_OUTPUT"
 cp -r "$work/gitlab/.twinshade" "$work/installed"  # as its cache would bring it
 step() {
   {
@@ -77,6 +80,10 @@ step() {
     github_commands "$1" | here_paths
   } >"$work/step.sh"
 }
+set_branch feature/recipe  # whose name ends in the wanted one's
+step "Find the commit"
+expect 0 github-commit bash "$work/step.sh"
+[ "$(cat "$GITHUB_OUTPUT")" = "commit=$(git -C "$work/twinshade.git" rev-parse recipe)" ] || fail "GitHub: not the commit"
 step "Install Twinshade"
 expect 0 github-install bash "$work/step.sh"
 step "Check"

@@ -42,7 +42,8 @@ TEST_CASE("values are read as GLSL takes them") {
   const Cases cases = parse_cases(
       R"({"values": {"inputs": [{"name": "m", "type": "mat2x3", "values": [[[1, 2, 3], [4, 5, 6]], [1, 2, 3, 4, 5, 6]]},
                                 {"name": "i", "type": "int", "values": [-2147483648, [7]]},
-                                {"name": "f", "type": "float", "values": ["-inf", "-0x1.8p-2"]}],
+                                {"name": "f", "type": "float", "values": ["-inf", "-0x1.8p-2"]},
+                                {"name": "z", "type": "float", "values": [-0, 0]}],
                      "uniforms": [{"name": "b", "type": "bvec2", "values": [[true, 0]]}, {"name": "n", "type": "float", "values": ["nan"]}],
                      "outputs": [{"name": "r", "type": "float", "values": [null, 0.1]}]},
           "tolerance": {"ulp": 3, "rel": 0.5}})",
@@ -53,6 +54,7 @@ TEST_CASE("values are read as GLSL takes them") {
   CHECK(value_at(cases.table.inputs[1], 0, 0) == -2147483648.0);
   CHECK(value_at(cases.table.inputs[2], 0, 0) == -INFINITY);
   CHECK(value_at(cases.table.inputs[2], 1, 0) == -0.375);
+  CHECK(cases.table.inputs[3].bits == std::vector<std::uint32_t>{0x80000000u, 0});
   CHECK(cases.table.uniforms[0].bits == std::vector<std::uint32_t>{1, 0});
   CHECK(std::isnan(value_at(cases.table.uniforms[1], 0, 0)));
   CHECK(cases.expected[0].has_value == std::vector<std::uint8_t>{0, 1});
@@ -99,6 +101,12 @@ TEST_CASE("what is wrong with cases is said in one line") {
   CHECK(refusal(input("uint", "[-1]")) == "f.json: values.inputs[0] (x), row 0: -1 is no uint");
   CHECK(refusal(input("int", "[-1e10]")) == "f.json: values.inputs[0] (x), row 0: -1e+10 is no int");
   CHECK(refusal(input("int", "[\"nan\"]")) == "f.json: values.inputs[0] (x), row 0: \"nan\" is no int");
+  CHECK(refusal(input("int", "[true]")) == "f.json: values.inputs[0] (x), row 0: true is no int");
+  CHECK(refusal(input("int[2][2]", "[[1, 2, 3, 4]]")) ==
+        "f.json: values.inputs[0] (x): \"int[2][2]\": give each array of an array of arrays by itself, as x[0], x[1] "
+        "...");
+  CHECK(refusal(R"({"values": {"inputs": []}, "values": {}})") ==
+        "f.json: \"values\" stands twice in one object: keep one");
   CHECK(refusal(input("bool", "[2]")) == "f.json: values.inputs[0] (x), row 0: 2 is no bool");
   CHECK(
       refusal(input("float", "[1e39]")) ==

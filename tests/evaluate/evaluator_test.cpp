@@ -66,10 +66,12 @@ TEST_CASE("uniforms of every kind are set by name, matrices by column") {
       "struct Light { vec3 colour; float power[2]; mat2 turn; };\n"
       "uniform Light lights[2]; uniform bool on; uniform bvec2 on2; uniform mat3x2 m; uniform uvec3 u; uniform ivec2 "
       "i[2];\n"
-      "layout(std140) uniform Block { float first; mat2x3 turn; vec3 list[2]; bool flag; } block;\n"
+      "uniform Block { float first; mat2x3 turn; vec3 list[2]; bool flag; } block;\n"
       "layout(std140, row_major) uniform Plain { mat3x2 rows_of; int last; };\n"
-      "in float x;\nout vec4 a; out vec4 b; out ivec4 c; out vec4 d;\n"
+      "uniform Pair { float lead; vec3 tail; } pairs[2];\nuniform vec2 given = vec2(0.5, 8.0);\n"
+      "in float x;\nout vec4 a; out vec4 b; out ivec4 c; out vec4 d; out vec4 e;\n"
       "void main() {\n"
+      "  e = vec4(pairs[0].tail.z, pairs[1].lead, given);\n"
       "  a = vec4(lights[1].colour, lights[1].power[1]); b = vec4(lights[1].turn[1], m[2]);\n"
       "  c = ivec4(on && !on2.x && on2.y && block.flag ? 1 : 0, int(u.z), i[1].y, last);\n"
       "  d = vec4(block.first + x, block.turn[1].z, block.list[1].y, rows_of[2].y);\n}\n";
@@ -84,7 +86,9 @@ TEST_CASE("uniforms of every kind are set by name, matrices by column") {
        {ints("on", "bool", {1}), ints("on2", "bvec2", {0, 1}), floats("m", "mat3x2", {1, 2, 3, 4, 5, 6}),
         ints("u", "uvec3", {1, 2, 7}), ints("i", "ivec2[2]", {1, 2, 3, -4}), floats("Block.first", "float", {.5f}),
         floats("block.turn", "mat2x3", {1, 2, 3, 4, 5, 6}), floats("Block.list", "vec3[2]", {1, 2, 3, 4, 5, 6}),
-        ints("Block.flag", "bool", {1}), floats("rows_of", "mat3x2", {1, 2, 3, 4, 5, 6}), ints("last", "int", {-9})})
+        ints("Block.flag", "bool", {1}), floats("rows_of", "mat3x2", {1, 2, 3, 4, 5, 6}), ints("last", "int", {-9}),
+        floats("Pair[0].lead", "float", {1}), floats("pairs[0].tail", "vec3", {2, 3, 4}),
+        floats("Pair[1].lead", "float", {5}), floats("Pair[1].tail", "vec3", {6, 7, 8})})
     table.uniforms.push_back(values);
   const EvaluatedRows rows = same_everywhere(fragment(text), table);
   const auto row = [&](const char* name, std::size_t r) {
@@ -96,6 +100,7 @@ TEST_CASE("uniforms of every kind are set by name, matrices by column") {
   CHECK(row("b", 1) == std::vector<double>{108, 109, 5, 6});
   CHECK(row("c", 1) == std::vector<double>{1, 7, -4, -9});
   CHECK(row("d", 1) == std::vector<double>{1.5, 6, 5, 6});
+  CHECK(row("e", 0) == std::vector<double>{4, 5, 0.5, 8});
 }
 
 TEST_CASE("uniforms that differ by row are what each row sees") {

@@ -312,8 +312,12 @@ std::string Generator::real(const GlslType& type, int depth) {
   if (c < 56) return "-(" + real(type, d) + ")";
   if (c < 62) return "sqrt(abs(" + real(type, d) + "))";
   if (c < 72) return join({pick({"abs(", "floor(", "ceil(", "trunc("}), real(type, d), ")"});
-  if (c < 78)
-    return join({pick({"min(", "max("}), real(type, d), ", ", chance(40) ? literal(Scalar::f32) : real(type, d), ")"});
+  if (c < 78) {
+    // Of x and -x drivers make -abs(x): the second is neither.
+    const std::string one = real(type, d), other = literal(Scalar::f32);
+    return join(
+        {pick({"min(", "max("}), one, ", ", chance(40) ? other : join({"(", real(type, d), " + ", other, ")"}), ")"});
+  }
   if (c < 82) return "clamp(" + real(type, d) + ", -2.0, 3.0)";
   if (c < 85) return join({"step(", literal(Scalar::f32), ", ", tame(type.rows, false), ")"});
   if (c < 91) return join({"(", truth(d), " ? ", real(type, d), " : ", real(type, d), ")"});

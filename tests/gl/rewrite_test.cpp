@@ -129,6 +129,9 @@ TEST_CASE("global initializers run after the inputs have been filled") {
   CHECK(contains(text, "precise float c ; precise float d [ 2 ] ; void twinshade_initialize_1"));
   CHECK(contains(text, "const int k = 3 ;"));
   CHECK(varyings("in float a;\nfloat b = a;\n" + kMain).initializers.empty());
+  CHECK(contains(tokens_of(globals("precise struct S {\n  float m;\n} s = S(1.0), t;\n" + kMain).text),
+                 "precise struct S { float m ; } ; precise S s ; void twinshade_initialize_0 ( ) { precise S "
+                 "twinshade_value = S ( 1.0 ) ; s = twinshade_value ; } precise S t ;"));
 }
 
 TEST_CASE("built-ins of the fragment are redirected in exact mode only") {

@@ -1,6 +1,7 @@
 // Workers: what survives, what is reported, what is not sent twice.
 #include <doctest/doctest.h>
 #include <signal.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -34,11 +35,26 @@ void main() {
 })";
 Bundle many_pixels() { return test::quad(2048, 2048); }
 
-std::vector<pid_t> children() {
-  std::ifstream file("/proc/self/task/" + std::to_string(getpid()) + "/children");
+std::vector<pid_t> children(pid_t parent = getpid()) {
+  const std::string id = std::to_string(parent);
+  std::ifstream file("/proc/" + id + "/task/" + id + "/children");
   std::vector<pid_t> result;
   for (pid_t pid = 0; file >> pid;) result.push_back(pid);
   return result;
+}
+
+// A process that nobody has waited for yet is none.
+bool runs(pid_t pid) {
+  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
+  std::string line;
+  std::getline(file, line);
+  return !line.empty() && line.compare(line.rfind(')') + 1, 2, " Z") != 0;
+}
+
+// Within ten seconds.
+bool becomes(const std::function<bool()>& condition) {
+  for (int attempt = 0; attempt < 500 && !condition(); ++attempt) usleep(20000);
+  return condition();
 }
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
@@ -101,6 +117,21 @@ TEST_CASE("a hang is ended at the time limit, and the next draw works") {
   CHECK(error == "egl: no answer within 2 s, so the worker was ended");
   CHECK(seconds < 4);
   CHECK(renderer->draw(test::quad(8, 8), shader(kPlain), {}).coverage[0] == 1);
+}
+
+TEST_CASE("a worker whose parent is killed ends, though it is drawing") {
+  const pid_t parent = fork();
+  REQUIRE(parent >= 0);
+  if (parent == 0) {
+    make_gl_renderer(GlBackend::egl)->draw(many_pixels(), shader(kEndless), {});
+    _exit(0);
+  }
+  std::vector<pid_t> workers;
+  CHECK(becomes([&] { return !(workers = children(parent)).empty(); }));
+  usleep(1000000);  // it draws by now
+  kill(parent, SIGKILL);
+  waitpid(parent, nullptr, 0);
+  for (const pid_t worker : workers) CHECK(becomes([&] { return !runs(worker); }));
 }
 
 TEST_CASE("a crash while drawing is one error, and the next draw works") {

@@ -87,7 +87,7 @@ const std::vector<Samples>& samples() {
        {"float x = dot(a, b);", "float x = length(a);", "vec3 v = normalize(a);", "vec3 v = cross(a, b);",
         "vec3 v = reflect(a, b);", "precise vec3 v = mix(a, b, 0.5);", "float x = fract(a.x);",
         "float x = mod(a.x, 2.0);"},
-       {"float x[3]; int i = x.length();", "vec3 v = mix(a, b, lessThan(a, b));"}},
+       {"float x[3]; int i = x.length();", "vec3 v = mix(a, b, lessThan(a, vec3(0.5)));"}},
       {"transcendental",
        {"float x = sin(a.x);", "float x = exp2(a.x);", "float x = pow(a.x, 2.0);", "float x = atan(a.x, a.y);",
         "float x = inversesqrt(a.x);", "precise float x = 1.0 - cos(a.x);", "vec3 v = log(a);"},
@@ -104,6 +104,24 @@ const std::vector<Samples>& samples() {
        {"precise float x = k > 0 ? a.x * b.x : a.x + b.x;", "precise float x = (k > 0 ? a.x * b.x : b.x) + a.x;",
         "precise float y = a.x * b.x + a.y; precise float x = k > 0 ? y : 0.0;", "int i = k > 0 ? k * 2 + 1 : 0;",
         "precise float x = k > 0 ? -a.x * b.x : 0.0;", "precise float x = k > 0 ? m[k + 1 - 2].x * b.x : 0.0;"}},
+      {"select-minmax",
+       {"float x = a.x < b.x ? a.x : b.x;", "precise float x = a.x > b.x ? b.x : a.x;",
+        "float x = a.x > 1.0 ? 1.0 : a.x;", "float x = !(a.x < 1.0) ? a.x : 1.00;",
+        "float x = ((a).x >= (b.x)) ? (a.x) : b.x;", "float x = mix(a.x, b.x, a.x < b.x);",
+        "vec3 v = mix(a, b, not(lessThan(b, a)));",
+        "precise float last = float(k); last = a.y; float x = a.x < last ? a.x : last;",
+        "float x = twice(a.x) > b.x ? twice(a.x) : b.x;"},
+       {"float x = a.x > b.x ? a.y : b.x;", "float x = a.x < 1.0 ? a.x : 1.0;", "float x = a.x > 0.0 ? a.x : -a.x;",
+        "float x = !(a.x > HALF) ? HALF : a.x;",
+        "precise float last = float(k) - 1.0; float x = a.x < last ? a.x : last;",
+        "precise float x = mix(a.x, b.x, a.x < b.x);", "precise vec3 v = mix(a, b, lessThan(a, b));",
+        "int i = k < 3 ? k : 3;", "float x = a.x == b.x ? a.x : b.x;"}},
+      {"minmax-abs",
+       {"precise float x = min(a.x, -a.x);", "precise vec3 v = max(-(a), (a));",
+        "precise float x = max(abs(a.x), a.x);", "precise float x = min(-abs(a.x), abs(a.x));",
+        "precise float x = clamp(a.x, -a.x, b.x);", "precise float x = min(a[k], +a[k]);"},
+       {"precise float x = min(a.x, -a.y);", "precise float x = max(a.x, abs(b.x));",
+        "precise float x = min(-a.x, -a.x);", "precise float x = clamp(a.x, b.x, -a.x);", "int i = max(k, -k);"}},
       {"filter",
        {"color = texture(map, a.xy);", "color = textureLod(maps, a, 1.0);", "color = textureGather(map, a.xy);",
         "vec3 v = interpolateAtCentroid(a);"},
@@ -201,13 +219,20 @@ TEST_CASE("arithmetic is found in every place a statement can have it") {
        {"if (k > 0) { } else color.x = " + expression + ";", "do { color.x = " + expression + "; } while (k > 9);",
         "for (int i = 0; i < k; ++i) { if (i == 2) continue; color.x = " + expression + "; }",
         "switch (k) { case 1: color.x = " + expression + "; break; default: break; }",
-        "{ { color.x = " + expression + "; } }", "for (float t = " + expression + "; k > 9;) {}",
-        "color = vec4(1.0), color.x = " + expression + ";", "while (" + expression + " > a.x) {}"}) {
+        "for (int i = 0; bool more = " + expression + " > a.x; ++i) {}", "{ { color.x = " + expression + "; } }",
+        "for (float t = " + expression + "; k > 9;) {}", "color = vec4(1.0), color.x = " + expression + ";",
+        "while (" + expression + " > a.x) {}"}) {
     CAPTURE(body);
     CHECK(rules_of(lint_body(body)) == "precise");
   }
   CHECK(rules_of(lint(shader_of("", "float f(float x) { return x * x; }"))) == "precise");
   CHECK(rules_of(lint(shader_of("", "float g = HALF * HALF;"))) == "constant");
+}
+
+TEST_CASE("the exact functions' min and max are found like the built-in ones") {
+  const std::string include = "#include \"exact/rounding.glsl\"\n";
+  CHECK(rules_of(lint(shader_of("float x = exact_min(a.x, -a.x) + 0.5;", include))) == "minmax-abs precise");
+  CHECK(rules_of(lint(shader_of("float x = exact_max(a.x, -a.y);", include))) == "");
 }
 
 TEST_CASE("blocks, structures, arrays and overloads are followed") {
@@ -249,6 +274,7 @@ TEST_CASE("the parser keeps its place through everything that GLSL allows") {
       "  for (;;) { if (i > 3) break; else if (i == 2) { ++i; continue; } i += 2; }\n"
       "  for (int a = 0, b = 3; a < b; ++a, --b) ;\n"
       "  while (bool again = i < 9) { i++; if (!again) break; }\n"
+      "  for (int c = 0; bool more = c < i; ++c) { if (!more) break; }\n"
       "  do i--; while (i > 0);\n"
       "  switch (i) { case 0: case 1: k = 2; break; default: { k = ~i ^ 5 | 3 & 1; } }\n"
       "  uvec2 q = uvec2(many.xy) << 3u >> uint(1); bool flag = !(i < 3 && i != 2 || k >= 1 ^^ true);\n"
@@ -264,7 +290,7 @@ TEST_CASE("the parser keeps its place through everything that GLSL allows") {
   REQUIRE(findings.size() == 2);
   CHECK(findings[0].rule == "remainder");
   CHECK(findings[1].rule == "precise");
-  CHECK(findings[1].line == 30);
+  CHECK(findings[1].line == 31);
 }
 
 TEST_CASE("a shader that is not GLSL is refused with its position") {

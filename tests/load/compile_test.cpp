@@ -211,3 +211,67 @@ TEST_CASE("what a compiler complains of is one line, and nothing is left behind"
   CHECK(files_named(cache.folder, ".so").empty());
   CHECK(files_named(cache.folder, ".cpp").size() == 1);  // the runtime's
 }
+
+TEST_CASE("a compiler that makes nothing, or fails without a word, is named with a remedy") {
+  const TestCache cache;
+  const auto said_of = [](const std::string& compiler) { return message_of([&] { compile("r = a.x;", compiler); }); };
+  for (const auto& [program, what] : {std::pair<std::string, std::string>{"exit 0", "made no object"},
+                                      {"exit 3", "failed with exit code 3 and no message"},
+                                      {"kill -9 $$", "was killed"}}) {
+    const std::string compiler = cache.folder + "/compiler";
+    write_program(compiler, "#!/bin/sh\n" + program + "\n");
+    const std::string message = said_of(compiler);
+    CHECK_MESSAGE(message.find(compiler + " cannot compile the runtime of translated shaders: it " + what) == 0,
+                  message);
+    CHECK_MESSAGE(message.ends_with("set CXX to a C++ compiler that works"), message);
+  }
+  CHECK(files_named(cache.folder, ".so").empty());
+}
+
+TEST_CASE("entries of the cache of the wrong kind are built again") {
+  const TestCache cache;
+  const std::string object = compile("r = a.x;");
+  const auto becomes_folder = [](const std::string& path) {
+    fs::remove_all(path);
+    fs::create_directories(path + "/within");
+  };
+  becomes_folder(object);
+  becomes_folder(files_named(cache.folder, "portable_math.o").at(0).string());
+  becomes_folder(files_named(cache.folder, "runtime/runtime.h").at(0).string());
+  for (const fs::path& precompiled : files_named(cache.folder, ".gch")) becomes_folder(precompiled.string());
+  CHECK(compile("r = a.x;") == object);
+  CHECK(run(object, 1.5, 0, 0) == 1.5);
+
+  fs::remove(object);
+  fs::create_symlink("/dev/zero", object);
+  std::string runtime;
+  for (const auto& entry : fs::directory_iterator(cache.folder))
+    if (entry.path().filename().string().starts_with("runtime-")) runtime = entry.path().string();
+  fs::remove_all(runtime);
+  write_file(runtime, "a file");
+  CHECK(compile("r = a.x;") == object);
+  CHECK(fs::is_directory(runtime));
+  CHECK(fs::is_regular_file(fs::symlink_status(object)));
+}
+
+TEST_CASE("an index of sources of the wrong kind is written again") {
+  const TestCache& cache = shared_cache();
+  const CompileOptions options{Isa::baseline, 1u << int(Number::scalar), 2, {}};
+  const IndexedSource indexed(small_shader("r = a.x + 2.0;"), options);
+  const std::string object = compile("r = a.x + 2.0;");
+  indexed.remember(object);
+  const std::string index = files_named(cache.folder, ".object").at(0).string();
+  fs::remove(index);
+  fs::create_directories(index);
+  CHECK(indexed.find().empty());
+  indexed.remember(object);
+  CHECK(indexed.find() == object);
+}
+
+TEST_CASE("a size of the cache that is none is said before anything is translated") {
+  shared_cache();
+  const TestVariable size("TWINSHADE_CACHE_SIZE", "1.5G");
+  const CompileOptions options{Isa::baseline, 1u << int(Number::scalar), 2, {}};
+  const std::string message = message_of([&] { IndexedSource(small_shader("r = a.x;"), options); });
+  CHECK_MESSAGE(message.find("TWINSHADE_CACHE_SIZE=1.5G") == 0, message);
+}

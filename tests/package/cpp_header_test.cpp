@@ -57,6 +57,7 @@ TEST_CASE("flat names become structs and arrays, arrays of arrays too") {
   add_value(nodes, "lights[1].colour", 0, "Colour", "vec3");
   add_value(nodes, "lights[1].samples[1]", 4, "float", "float");
   add_value(nodes, "new", 0, "int", "int");
+  name_members(nodes, {});
   CHECK(declare_values(nodes, "") ==
         "struct lights_struct {\n"
         "  Colour colour{};  // vec3 colour\n"
@@ -64,5 +65,52 @@ TEST_CASE("flat names become structs and arrays, arrays of arrays too") {
         "};\n"
         "std::array<lights_struct, 2> lights{};  // struct lights[2]\n"
         "int new_{};  // int new\n");
-  CHECK(cpp_path("lights[1].new[3]") == "lights[1].new_[3]");
+  CHECK(cpp_path(nodes, "lights[1].samples[1]") == "lights[1].samples[1]");
+  CHECK(cpp_path(nodes, "new") == "new_");
+}
+
+TEST_CASE("names are unique in their scope and GLSL's where they can be") {
+  std::vector<ValueNode> nodes;
+  for (const char* name : {"new", "new_", "a.b.a_struct", "a.b.b_struct", "a_struct", "INT_MAX", "MVP", "kept", "std"})
+    add_value(nodes, name, 0, "float", "float");
+  name_members(nodes, {"kept"});
+  CHECK(declare_values(nodes, "") ==
+        "float new__{};  // float new\n"
+        "float new_{};  // float new_\n"
+        "struct a_struct_ {\n"
+        "  struct b_struct_ {\n"
+        "    float a_struct{};  // float a_struct\n"
+        "    float b_struct{};  // float b_struct\n"
+        "  };\n"
+        "  b_struct_ b{};  // struct b\n"
+        "};\n"
+        "a_struct_ a{};  // struct a\n"
+        "float a_struct{};  // float a_struct\n"
+        "float INT_MAX_{};  // float INT_MAX\n"
+        "float MVP{};  // float MVP\n"
+        "float kept_{};  // float kept\n"
+        "float std_{};  // float std\n");
+  CHECK(cpp_path(nodes, "a.b.b_struct") == "a.b.b_struct");
+  CHECK(cpp_path(nodes, "new") == "new__");
+}
+
+TEST_CASE("an output named discarded keeps its name where nothing is discarded") {
+  const std::string shader = "in float x;\nout float discarded;\nvoid main() { discarded = x; }\n";
+  CHECK(header_of(shader).header.find(" Real discarded{};") != std::string::npos);
+  const std::string discards =
+      "in float x;\nout float discarded;\nvoid main() { if (x < 0.0) discard; discarded = x; }\n";
+  CHECK(header_of(discards).header.find(" Real discarded_{};") != std::string::npos);
+  CHECK(header_of(discards).calls.find("out.discarded_)") != std::string::npos);
+}
+
+TEST_CASE("uniforms have the values that the shader gives them") {
+  const std::string header = header_of(
+                                 "uniform float a = -0.0, b = 1.0e30, c = 0.1;\nuniform ivec2 d = ivec2(-1, 0);\n"
+                                 "uniform mat2 e[1] = mat2[1](mat2(1.0));\nuniform bool f = true, g = false;\n"
+                                 "out float r;\n"
+                                 "void main() { r = a + b + c + float(d.x) + e[0][1].x + (f && g ? 1.0 : 2.0); }\n")
+                                 .header;
+  for (const char* member : {" a{-0.0f};", " b{1e+30f};", " c{0.1f};", " d{{-1, 0}};",
+                             " e{{{{{{1.0f, 0.0f}}, {{0.0f, 1.0f}}}}}};", " f{true};", " g{};"})
+    CHECK_MESSAGE(header.find(member) != std::string::npos, member, header);
 }

@@ -53,10 +53,10 @@ TEST_CASE("operators become calls that keep grouping, operand order and implicit
   CHECK(body_of("float x = (a.x + b.x) * 2.0;") == "floatx=exact_multiply((exact_add(a.x,b.x)),2.0);");
   CHECK(body_of("float x = a.x - (b.x - a.y) - 1;") ==
         "floatx=exact_subtract(exact_subtract(a.x,(exact_subtract(b.x,a.y))),float(1));");
-  CHECK(body_of("float x = k / a.x;") == "floatx=exact_divide(float(k),a.x);");
+  CHECK(body_of("float x = k / a.x;") == "floatx=exact_divide(exact_unseen(float(k),exact_zero),a.x);");
   CHECK(body_of("int i = k * 3 + 1;") == "inti=k*3+1;");
   CHECK(body_of("vec3 v = m * a;") == "vec3v=exact_multiply(m,a);");
-  CHECK(body_of("bool c = a.x * b.x > 0.0;") == "boolc=exact_multiply(a.x,b.x)>0.0;");
+  CHECK(body_of("bool c = a.x * b.x > 0.0;") == "boolc=exact_unseen(exact_multiply(a.x,b.x),exact_zero)>0.0;");
 }
 
 TEST_CASE("assignments that compute write their target once") {
@@ -72,7 +72,8 @@ TEST_CASE("assignments that compute write their target once") {
 }
 
 TEST_CASE("constants are computed where both machines compute alike, and literals mean one float") {
-  CHECK(body_of("const float x = 0.1 * 3.0; float y = x;") == "floatx=exact_multiply(0.100000001,3.0);floaty=x;");
+  CHECK(body_of("const float x = 0.1 * 3.0; float y = x;") ==
+        "floatx=exact_unseen(exact_multiply(0.100000001,3.0),exact_zero);floaty=x;");
   // Constants stay where GLSL asks for one.
   CHECK(
       left_of("float t[int(W)]; t[N - 1] = a.x * W; color.x = t[0]; switch (k) { case N: color.y = float(N); }",
@@ -84,12 +85,58 @@ TEST_CASE("constants are computed where both machines compute alike, and literal
   CHECK(body_of("const ivec2 p = ivec2(a.xy * 2.0);") == "ivec2p=ivec2(exact_multiply(a.xy,2.0));");
   CHECK(body_of("const float x = 0.1; const float y = x;") == "constfloatx=0.100000001;constfloaty=x;");
   CHECK(body_of("const float x = 1.0, y = 1.0 / 3.0; const float z = x;") ==
-        "floatx=1.0,y=exact_divide(1.0,3.0);floatz=x;");
+        "floatx=1.0,y=exact_unseen(exact_divide(1.0,3.0),exact_zero);floatz=x;");
   CHECK(body_of("float x = a.x * 2.4 + 0.5;") == "floatx=exact_add(exact_multiply(a.x,2.40000010),0.5);");
   CHECK(left_of("float x = a.x * 2.4 + 3.1;") == "");
   CHECK(body_of("float x = a.x + 0.0;") == "floatx=exact_add(a.x,exact_zero);");
   CHECK(body_of("vec3 v = vec3(0);") == "vec3v=vec3(exact_zero);");
-  CHECK(body_of("mat3 x = mat3(2.0);") == "mat3x=exact_diagonal_3(2.0,exact_zero);");
+}
+
+TEST_CASE("no value is known to compilers, so that none can be computed to be zero, and no bit of it changes") {
+  // as a whole, where something in it may be zero or arithmetic may make it so
+  CHECK(body_of("float x = a.x * (1.0 - 1.0);") ==
+        "floatx=exact_multiply(a.x,exact_unseen((exact_subtract(1.0,1.0)),exact_zero));");
+  CHECK(body_of("float x = 2.0; x -= 2.0;") == "floatx=exact_unseen(2.0,exact_zero);x=exact_subtract(x,2.0);");
+  CHECK(body_of("float x = floor(0.5);") == "floatx=exact_unseen(floor(0.5),exact_zero);");
+  CHECK(body_of("float x = k > 0 ? 1.0 : 0.0;") == "floatx=k>0?exact_unseen(1.0,exact_zero):exact_zero;");
+  CHECK(body_of("vec4 v = vec4(a, 1);") == "vec4v=exact_unseen(vec4(a,1),exact_zero);");
+  CHECK(body_of("vec3 v = vec3(1.0, 0.0, 2.0);") == "vec3v=exact_unseen(vec3(1.0,0.0,2.0),exact_zero);");
+  // integers are known too
+  CHECK(body_of("float x = float(k - k);") == "floatx=exact_unseen(float(k-k),exact_zero);");
+  CHECK(body_of("float x = float(false);") == "floatx=exact_unseen(float(false),exact_zero);");
+  CHECK(body_of("const int Z = 0; vec3 v = a * Z;") ==
+        "constintZ=0;vec3v=exact_multiply(a,exact_unseen(float(Z),exact_zero));");
+  CHECK(body_of("float x = uintBitsToFloat(0u) + twice(0);") ==
+        "floatx=exact_add(exact_unseen(uintBitsToFloat(0u),exact_zero),twice(exact_unseen(0,exact_zero)));");
+  CHECK(body_of("Light l = Light(a, k);") == "Lightl=Light(a,exact_unseen(k,exact_zero));");
+  // the rest of a matrix
+  CHECK(body_of("mat3 x = mat3(2.0);") == "mat3x=exact_diagonal_3(exact_unseen(2.0,exact_zero),exact_zero);");
+  CHECK(body_of("mat4 x = mat4(m);") == "mat4x=exact_unseen(mat4(m),exact_zero);");
+  CHECK(body_of("mat2x3 x = mat2x3(a.x);") == "mat2x3x=exact_unseen(mat2x3(a.x),exact_zero);");
+  CHECK(body_of("mat2 x = mat2(a.xy, b.xy);") == "mat2x=mat2(a.xy,b.xy);");
+  // known to be other than zero, beside something unknown
+  CHECK(body_of("vec3 v = vec3(1.0, -2.0, 4.0) * a;") == "vec3v=exact_multiply(vec3(1.0,-2.0,4.0),a);");
+  CHECK(body_of("const float T[2] = float[](1.0, 2.0); float x = a.x * T[k];") ==
+        "constfloatT[2]=float[](1.0,2.0);floatx=exact_multiply(a.x,T[k]);");
+  CHECK(body_of("const float T[2] = float[](1.0, 2.0); float x = T[k] - 1.0;") ==
+        "constfloatT[2]=float[](1.0,2.0);floatx=exact_unseen(exact_subtract(T[k],1.0),exact_zero);");
+  // what must stay a constant is hidden where it is used
+  const std::string kept = "const float Z = 0.0; uniform float u = Z; float none() { return 0; }\n";
+  CHECK(plain_body(make_exact(shader_of("float x = a.x + Z;", kept))) ==
+        "floatx=exact_add(a.x,exact_unseen(Z,exact_zero));");
+  CHECK(make_exact(shader_of("", kept)).source.text.find("return exact_zero ;") != std::string::npos);
+  CHECK(left_of("float x = a.x + Z * none();", kept) == "");
+}
+
+TEST_CASE("compilers do not see that two values which are compared or limited have something in common") {
+  CHECK(body_of("float x = a.x < b.x ? a.x : b.x;") == "floatx=exact_unseen(a.x,exact_zero)<b.x?a.x:b.x;");
+  CHECK(body_of("if (1.0 > a.x) discard;") == "if(1.0>exact_unseen(a.x,exact_zero))discard;");
+  CHECK(body_of("bvec3 c = lessThan(a, b); bool d = a.x == b.x;") ==
+        "bvec3c=lessThan(exact_unseen(a,exact_zero),b);boold=a.x==b.x;");
+  CHECK(body_of("float x = min(a.x, -a.x);") == "floatx=exact_min(exact_unseen(a.x,exact_zero),-a.x);");
+  CHECK(body_of("float x = clamp(a.x, 0.5, 1.0);") == "floatx=exact_clamp(a.x,0.5,1.0);");
+  CHECK(body_of("int i = min(k, -k); bool c = k < 3;") == "inti=min(k,-k);boolc=k<3;");
+  CHECK(left_of("color.x = a.x < b.x ? a.x : b.x; color.y = max(abs(a.y), a.y);") == "");
 }
 
 TEST_CASE("written out are division, roots and limits alone, by component, within the files of shaders/exact/ too") {

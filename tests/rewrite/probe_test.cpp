@@ -1,7 +1,10 @@
 // Shaders with probes are valid, number the same statements whether all or one are told of, and keep their lines.
 #include <doctest/doctest.h>
 
+#include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "cpu_shaders/rewrite/frag_coord.h"
 #include "cpu_shaders/rewrite/make_exact.h"
@@ -53,11 +56,15 @@ bool names(const ProbedShader& shader, int line, const std::string& what) {
 TEST_CASE("every kind of statement is probed, at its line") {
   const ProbedShader shader = add_probes(everything());
   CHECK_NOTHROW(compile_glsl(shader.source));
-  const std::vector<std::pair<int, std::string>> expected = {
-      {2, "K"},          {5, "result of make"}, {7, "x"},          {8, "result of count"}, {10, "w"},
-      {10, "y"},         {11, "x, y"},          {12, "s.v.xy"},    {13, "t, t"},           {13, "condition"},
-      {14, "condition"}, {15, "condition"},     {16, "condition"}, {17, "condition"},      {18, "p"},
-      {20, "sum"},       {23, "color"}};
+  const std::vector<std::pair<int, std::string>> expected = {{2, "K"},          {5, "result of make"},
+                                                             {7, "x"},          {8, "result of count"},
+                                                             {10, "w"},         {10, "y"},
+                                                             {11, "x, y"},      {12, "s.v.xy"},
+                                                             {13, "t"},         {13, "condition"},
+                                                             {14, "condition"}, {15, "condition"},
+                                                             {16, "condition"}, {17, "condition"},
+                                                             {18, "p"},         {20, "sum"},
+                                                             {23, "color"}};
   for (const auto& statement : expected) {
     CAPTURE(statement.first);
     CAPTURE(statement.second);
@@ -70,7 +77,7 @@ TEST_CASE("every kind of statement is probed, at its line") {
 TEST_CASE("one probe at a time: the same numbers, valid GLSL") {
   const ProbedShader all = add_probes(everything());
   for (std::size_t k = 0; k < all.statements.size(); ++k) {
-    const ProbedShader one = add_probes(everything(), k);
+    const ProbedShader one = add_probes(everything(), std::set<std::size_t>{k});
     CAPTURE(all.statements[k].what);
     CHECK(one.statements.size() == all.statements.size());
     CHECK_NOTHROW(compile_glsl(one.source));
@@ -97,6 +104,79 @@ TEST_CASE("what a statement declares outlives the probes of what its calls wrote
   const ProbedShader shader = add_probes(source);
   CHECK_NOTHROW(compile_glsl(shader.source));
   CHECK(names(shader, 4, "whole, part"));
+}
+
+TEST_CASE("globals are told at their own lines, wherever functions stand") {
+  const ShaderSource source = resolve_shader("t",
+                                             "in vec4 a; out vec4 c; float f(float x) { return x; }\n"
+                                             "float g = sin(a.x);\n"
+                                             "void h(inout float k) {\n k = a.y * 2.0; }\n"
+                                             "void last();\n"
+                                             "void main() { last(); c = vec4(g); h(c.x); }\n"
+                                             "float below = cos(a.x);\n"
+                                             "void last() { g += below; }\n",
+                                             "t.frag");
+  const ProbedShader shader = add_probes(source);
+  CHECK_NOTHROW(compile_glsl(shader.source));
+  CHECK(names(shader, 2, "g"));
+  CHECK(names(shader, 4, "k"));
+  CHECK(names(shader, 7, "below"));
+}
+
+TEST_CASE("what a call hands over is told at the call's line, structures and arrays too, but for exact functions") {
+  const ShaderSource source = resolve_shader("t",
+                                             "in vec4 a; out vec4 c; struct S { float x; mat2 m; };\n"
+                                             "float f(float x, in S s, float w[2], mat2 m) {\n"
+                                             "  return x + s.x + w[1] + m[0].x; }\n"
+                                             "void main() {\n"
+                                             "  float r = f(sin(a.x),\n"
+                                             "              S(a.y * 2.0, mat2(a)),\n"
+                                             "              float[](a.x, tan(a.y)), mat2(a) * 2.0);\n"
+                                             "  if (f(r, S(r, mat2(1.0)), float[2](r, r), mat2(r)) > 1.0) c = a;\n"
+                                             "}\n",
+                                             "t.frag");
+  const ProbedShader shader = add_probes(source);
+  CHECK_NOTHROW(compile_glsl(shader.source));
+  CHECK(names(shader, 5, "argument 1 of f"));
+  CHECK(names(shader, 6, "argument 2 of f"));
+  CHECK(names(shader, 7, "argument 3 of f"));
+  CHECK(names(shader, 7, "argument 4 of f"));
+  CHECK(names(shader, 8, "argument 1 of f"));
+  const ProbedShader exact = add_probes(make_exact(source).source);
+  CHECK_NOTHROW(compile_glsl(exact.source));
+  for (const ProbedStatement& statement : exact.statements)
+    CHECK(statement.what.find("of exact_") == std::string::npos);
+}
+
+TEST_CASE("returned arrays are told") {
+  const ShaderSource source = resolve_shader("t",
+                                             "in vec4 a; out vec4 c;\n"
+                                             "highp float[2] f() {\n  return float[2](a.x, tan(a.y)); }\n"
+                                             "void main() { float w[2] = f(); c = vec4(w[0], w[1], 0, 1); }\n",
+                                             "t.frag");
+  const ProbedShader shader = add_probes(source);
+  CHECK_NOTHROW(compile_glsl(shader.source));
+  CHECK(names(shader, 3, "result of f"));
+}
+
+TEST_CASE("integer statements are told, and values by member, column and element") {
+  const ProbedShader shader = add_probes(everything());
+  const ShaderSource integers = resolve_shader(
+      "t", "flat in int k; out int n;\nvoid main() {\n  int a = k >> 3;\n  if (a > 2) n = a / k;\n}\n", "t.frag");
+  const ProbedShader of_integers = add_probes(integers);
+  CHECK_NOTHROW(compile_glsl(of_integers.source));
+  CHECK(names(of_integers, 3, "a"));
+  CHECK(names(of_integers, 4, "condition"));
+  CHECK(names(of_integers, 4, "n"));
+  for (const ProbedStatement& statement : of_integers.statements) CHECK_FALSE(statement.computes);
+
+  std::set<std::vector<std::string>> found;
+  for (const ProbedValue& value : shader.values) found.insert(value.name);
+  for (const std::vector<std::string>& name : std::vector<std::vector<std::string>>{
+           {"sum"}, {"p[2]"}, {"w", ""}, {"s.v"}, {"s.w", ""}, {"(result of make).v"}, {"(result of make).w", ""}}) {
+    CAPTURE(name[0]);
+    CHECK(found.count(name) == 1);
+  }
 }
 
 TEST_CASE("a shader's own probe and ES without a precision yet are no obstacle") {

@@ -128,6 +128,9 @@ TEST_CASE("recursion is refused with its calls, each at its line") {
                     "int b(int n);\nint a(int n) {\n  return b(n);\n}\nint b(int n) {\n  if (n > 3)\n    return a(n);\n"
                     "  return n;\n}\nvoid main() { color = vec4(b(3)); }\n",
                 5, "the calls are a -> b (bad.frag:5) -> a (bad.frag:9)");
+  // A call that gives a global its value is no call of the function above it.
+  CHECK(refusal(kHead + "float f(float x) { return x; }\nfloat g = f(0.5);\nvoid main() { color = vec4(g); }\n") ==
+        "accepted");
   // An overload is another function.
   CHECK(refusal(kHead + "float f(float x) { return x; }\nfloat f(int n) { return f(float(n)); }\n"
                         "void main() { color = vec4(f(3)); }\n") == "accepted");

@@ -1,10 +1,13 @@
 // A worker's life: make a context, say so, then draw for the parent until it closes the socket.
+#include <poll.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <thread>
 
 #include "raster/gl/worker/failure.h"
 #include "raster/gl/worker/frame_drawer.h"
@@ -28,11 +31,23 @@ DrawReply failure(Outcome outcome, const std::string& text) {
   return reply;
 }
 
-// Should the parent be gone while a driver hangs, the alarm ends what nobody waits for.
+// A draw may take long after its parent was killed: its end of the socket closes, and nobody waits for this one.
+void end_with_parent() {
+  std::thread([] {
+    pollfd end{kWorkerSocket, POLLRDHUP, 0};
+    while (poll(&end, 1, -1) < 0 && errno == EINTR) {
+    }
+    sleep(1);  // what is between draws ends by itself
+    _exit(0);
+  }).detach();
+}
+
+// Should the parent hang as well, the alarm ends what a driver does not.
 void limit_own_life(double time_limit_seconds) { alarm(unsigned(std::ceil(std::min(time_limit_seconds, 1e6))) + 10); }
 
 int serve(GlBackend backend) {
   Channel channel{FileDescriptor(kWorkerSocket)};
+  end_with_parent();
   std::unique_ptr<GlContext> context;
   try {
     context = make_context(backend);

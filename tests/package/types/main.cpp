@@ -1,4 +1,10 @@
 // Calls shaders with every type and compares with numbers worked out by hand. Exit status: failures.
+// The headers of C come first: their macros must not replace the shaders' names.
+#include <errno.h>
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+
 #include <bit>
 #include <cstdio>
 #include <cstring>
@@ -6,8 +12,15 @@
 #include <vector>
 
 #include "bits_only.h"
+#include "initial.h"
+#include "names.h"
 #include "quads.h"
 #include "types.h"
+
+// other_unit.cpp
+float clamped_elsewhere(float x);
+float sum_elsewhere();
+std::size_t length_elsewhere(const char* text);
 
 namespace {
 
@@ -121,6 +134,63 @@ void check_quads() {
   expect_equal("id alone", alone.id, -13);
 }
 
+// What a struct of uniforms holds before anyone sets it is what the GLSL says, to the bit.
+void check_initial_values() {
+  const initial::Uniforms u;
+  const auto expect_bits = [](const char* what, float is, std::uint32_t should) {
+    expect_equal(what, std::bit_cast<std::uint32_t>(is), should);
+  };
+  expect_bits("gain", u.gain, 0x3dcccccdu);
+  expect_bits("tiny", u.tiny, 7136);  // 1e-41 in units of 2^-149
+  expect_bits("infinite", u.infinite, 0x7f800000u);
+  expect_bits("unset", u.unset, 0);
+  expect_equal("least", u.least, -2147483648.0);
+  expect_equal("most", u.most, 4294967295.0);
+  expect_equal("flags", u.flag && !u.flags[0] && u.flags[1], true);
+  expect_equal("tint", u.tint == decltype(u.tint){{{{1, 1, 1}}, {{2, 3, 4}}}}, true);
+  expect_equal("grid", u.grid == decltype(u.grid){{{{1, 2}}, {{3, 4}}}}, true);
+  expect_equal("columns", u.columns == decltype(u.columns){{{{1, 2}}, {{3, 4}}, {{5, 6}}}}, true);
+  expect_equal("solo.colour", u.solo.colour == std::array<float, 3>{7, 8, 9}, true);
+  expect_equal("solo.inner[0].on", u.solo.inner[0].on, false);
+  expect_equal("solo.inner[1].on", u.solo.inner[1].on, true);
+  expect_equal("solo.inner[1].turn[1].y", u.solo.inner[1].turn[1][1], 1);
+  expect_equal("solo.count[1]", u.solo.count[1], -2);
+  expect_equal("lights[0].colour.x", u.lights[0].colour[0], 0);
+  expect_equal("lights[0].count[1]", u.lights[0].count[1], 3);
+  expect_equal("lights[1].colour.z", u.lights[1].colour[2], 12);
+  expect_equal("lights[1].inner[0].turn[0].x", u.lights[1].inner[0].turn[0][0], 2);
+  expect_equal("lights[1].inner[1].on", u.lights[1].inner[1].on, false);
+
+  const initial::Outputs out = initial::shade(u, initial::Inputs{});
+  expect_equal("sums.y", out.sums[1], 1 + 100 - 1);
+  expect_equal("sums.z", out.sums[2], 4 + 3 + 6);
+  expect_equal("sums.w", out.sums[3], 9 + 1 + 2 + 5);
+  expect_equal("sums.z in another unit", sum_elsewhere(), 4 + 3 + 6);
+}
+
+// GLSL's names stay where they can; the others get underscores.
+void check_names() {
+  names::Uniforms u;
+  u.lights[1].lights.lights_struct = {0, 1, 0};
+  u.lights[1].lights_struct = 2;
+  u.lights_struct = 3;
+  u.new__ = 4;
+  u.new_ = 5;
+  u.EOF_ = 1;
+  u.stdin_ = 2;
+  u.INT_MAX_ = 3;
+  u.M_PI_ = 4;
+  u.INFINITY_ = 5;
+  u.errno_ = 6;
+  u.linux_ = 1e6f;
+  u.MVP = 7;
+  const names::Outputs out = names::shade(u, names::Inputs{.x = 1});
+  expect_equal("discarded", out.discarded, false);
+  expect_equal("discarded_", out.discarded_, 54321);
+  expect_equal("NAN_", out.NAN_, 7654321);
+  expect_equal("discarded", names::shade(u, names::Inputs{.x = -1}).discarded, true);
+}
+
 }  // namespace
 
 int main() {
@@ -128,6 +198,10 @@ int main() {
   check_refusals();
   check_quads<float>();
   check_quads<double>();
+  check_initial_values();
+  check_names();
+  expect_equal("clamped in another unit", clamped_elsewhere(7), 1);
+  expect_equal("<string.h> beside a shader's string.h", length_elsewhere("four"), 4);
   expect_equal("bits", bits_only::shade({}, {.word = std::bit_cast<std::uint32_t>(1.5f)}).value, 1.5);
   return failures;
 }

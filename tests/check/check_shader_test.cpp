@@ -1,0 +1,56 @@
+// Reports speak of the author's inputs alone. The two machines are the CPU flushing denormals and the CPU keeping them.
+#include <doctest/doctest.h>
+
+#include <unistd.h>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "check/check_shader.h"
+
+namespace twinshade {
+namespace {
+
+CheckedShader checked_exact(const std::string& text) {
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("twinshade_check_shader_" + std::to_string(::getpid()) + ".frag");
+  std::ofstream(path) << text;
+  CheckOptions options;
+  options.on.resize(2);
+  options.on[1].keep_denormals = true;
+  options.generate.rows = 16;
+  options.make_exact = true;
+  options.timing = false;
+  Evaluator evaluator;
+  CheckedShader result = check_shaders(evaluator, {path.string()}, options).at(0);
+  std::filesystem::remove(path);
+  return result;
+}
+
+const std::string kShader =
+    "// @input x 7.8e-31..7.9e-31\n// @input y 9e-13..9.1e-13\n// @input z 1e30..1.1e30\n"
+    "in float x; in float y; in float z; out vec4 c;\n"
+    "void main() {\n  c = vec4(x * y * z + 0.0) * gl_FragCoord.w;\n}\n";
+
+}  // namespace
+
+TEST_CASE("the smallest input has gl_FragCoord by its name, and nothing that --make-exact added") {
+  const CheckedShader shader = checked_exact(kShader);
+  CAPTURE(shader.message);
+  REQUIRE(shader.counterexample.has_value());
+  std::string names;
+  for (const Values& values : shader.counterexample->values.inputs) names += values.name + " ";
+  CHECK(names == "x y z gl_FragCoord ");
+  CHECK(shader.counterexample->values.uniforms.empty());
+  REQUIRE(shader.counterexample->first_line.difference.has_value());
+  CHECK(shader.counterexample->first_line.difference->statement.line == 6);
+}
+
+TEST_CASE("an unknown input is answered with the author's own") {
+  const CheckedShader shader = checked_exact("// @input nonsense 0..1\n" + kShader);
+  CHECK(shader.verdict == Verdict::refused);
+  CHECK(shader.message.find("nonsense") != std::string::npos);
+  CHECK(shader.message.find("exact_zero") == std::string::npos);
+}
+
+}  // namespace twinshade

@@ -1,4 +1,5 @@
 // twinshade: one GLSL shading function, two machines, compared bit by bit.
+#include <fcntl.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -87,6 +88,13 @@ int run_and_report(int argc, char** argv) {
   }
 }
 
+// A program may be started without stdin, stdout or stderr: then no file or socket gets their numbers, and writing to
+// them fails as it should.
+void keep_standard_numbers() {
+  for (int fd = 0; fd <= 2; ++fd)
+    if (fcntl(fd, F_GETFD) < 0) open("/dev/null", O_RDONLY);
+}
+
 }  // namespace
 }  // namespace twinshade
 
@@ -94,5 +102,6 @@ int main(int argc, char** argv) {
 #if TWINSHADE_HAS_GL
   if (const std::optional<int> worker = twinshade::run_gl_worker_if_asked(argc, argv)) return *worker;
 #endif
+  twinshade::keep_standard_numbers();
   return twinshade::run_and_report(argc, argv);
 }

@@ -77,9 +77,8 @@ class MakeExact : public Listener {
   // Names that are the shader's own, but begin as those of the functions that come before it.
   template <class StandsBefore>
   void rename_own_names(const StandsBefore& stands_before) {
-    const auto is_ours = [](const std::string& name) {
-      return name.rfind("exact_", 0) == 0 || name.rfind("written_", 0) == 0;
-    };
+    const char* const prefix = scope_ == ExactScope::written_out ? "written_" : "exact_";
+    const auto is_ours = [prefix](const std::string& name) { return name.rfind(prefix, 0) == 0; };
     const auto stands = [&](const Token& token) {
       return stands_before(list_.files[static_cast<std::size_t>(token.file)]);
     };

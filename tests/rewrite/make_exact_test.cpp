@@ -169,6 +169,8 @@ TEST_CASE("written out are division, roots and limits alone, by component, withi
   const std::string text = make_exact(nested, scope).source.text;
   CHECK(text.find("written_sqrt (") != std::string::npos);
   CHECK(text.find("= written_divide(") != std::string::npos);
+  CHECK(text.find("exact_normalize (") != std::string::npos);  // a name that this scope brings no function of
+  CHECK(text.find("exact_normalize_name") == std::string::npos);
 }
 
 TEST_CASE("a shader's own names that are those of exact functions are given way to, included ones are called") {

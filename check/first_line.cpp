@@ -185,8 +185,7 @@ class Search {
       return "no value differs of those that can be looked at (not doubles, nor stores through an index that calls a "
              "function)";
     return "no value differs when it is looked at: the difference needs several statements compiled as one, or is in "
-           "an "
-           "output that is never written";
+           "an output that is never written";
   }
 
   const Tracer tracer_;

@@ -1,5 +1,6 @@
 #include "check/input_ranges.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -8,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "cpu_shaders/source/directive_scan.h"
 #include "cpu_shaders/source/preprocess.h"
 
 namespace twinshade {
@@ -80,10 +82,16 @@ struct InputComment {
 };
 using InputComments = std::map<std::size_t, InputComment>;  // by their line in the resolved text, counted from 0
 
+bool has_conditionals(const std::string& text) {
+  const std::vector<SourceLine> lines = scan_lines(text);
+  return std::any_of(lines.begin(), lines.end(),
+                     [](const SourceLine& line) { return line.directive.rfind("if", 0) == 0; });
+}
+
 // Leaves out those that an #if leaves out. Comments are gone when conditionals are decided, pragmas are not: each line
 // gets one behind it.
 void keep_those_in_force(const ShaderSource& source, InputComments& comments) {
-  if (source.text.find("#if") == std::string::npos || comments.empty()) return;
+  if (comments.empty() || !has_conditionals(source.text)) return;
   const std::string mark = "#pragma twinshade_input_";
   ShaderSource marked = source;
   marked.text.clear();
@@ -95,8 +103,15 @@ void keep_those_in_force(const ShaderSource& source, InputComments& comments) {
       marked.text += mark + std::to_string(at) + "\n#line " + std::to_string(found->second.line + 1) + " \"" +
                      found->second.file + "\"\n";
   }
+  std::string preprocessed;
+  try {
+    preprocessed = preprocess_untried(marked);
+  } catch (const UserError&) {
+    preprocess_untried(source);  // its own errors are told
+    return;                      // a comment among a macro's arguments, where no pragma may stand
+  }
   InputComments in_force;
-  std::istringstream left(preprocess_untried(marked));
+  std::istringstream left(preprocessed);
   for (std::string line; std::getline(left, line);)
     if (line.rfind(mark, 0) == 0) in_force.insert(comments.extract(std::stoul(line.substr(mark.size()))));
   comments = std::move(in_force);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +13,9 @@
 #include "cpu_shaders/lint/glsl_type.h"
 
 namespace twinshade::lint_detail {
+
+// Of a value that may be infinite or NaN.
+inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 struct Expression;
 using ExpressionPtr = std::unique_ptr<Expression>;
@@ -45,7 +49,7 @@ struct Expression {
   bool constant = false;  // built of literals and constants alone
   bool has_zero = false;  // a floating component that is known to be zero
   bool all_zero = false;
-  bool is_number = false;       // never NaN: of constants and integers by + - *
+  double limit = kUnlimited;    // never NaN, nor farther from zero than this: of constants and integers by + - *
   std::optional<long> integer;  // value, where it is a plain integer constant
   bool precise = false;         // assign and declaration: the target is `precise`; lvalues: their variable is
   std::vector<bool> written;    // call: arguments that are out or inout

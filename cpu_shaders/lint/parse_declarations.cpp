@@ -23,6 +23,11 @@ bool is_qualifier(const Token& token) {
          std::find(kQualifiers.begin(), kQualifiers.end(), token.text) != kQualifiers.end();
 }
 
+// Of the reading that only gathers what is stored.
+struct Silent : Listener {
+  void expression(const Expression&, Role) override {}
+};
+
 Variable builtin_variable(std::string_view keyword, int array_dimensions = 0) {
   Variable variable;
   variable.type = keyword_type(keyword);
@@ -94,7 +99,17 @@ bool Parser::is_type(const Token& token) {
   return named != nullptr && named->is_structure;
 }
 
+// Twice: a loop, or a function that is called, reaches a line with what later lines store.
 void Parser::run() {
+  Silent silent;
+  Parser stores(list_, silent);
+  stores.read();
+  stored_limits_ = std::move(stores.stored_limits_);
+  stores_are_known_ = true;
+  read();
+}
+
+void Parser::read() {
   while (peek().kind != Token::Kind::end) external_declaration();
 }
 
@@ -177,6 +192,7 @@ Parser::Declarator Parser::qualifiers_and_type() {
     }
     if (qualifier == "uniform") declarator.is_uniform = true;
     if (qualifier == "out" || qualifier == "inout") declarator.is_output = true;
+    if (qualifier == "out") declarator.is_input = false;
     if ((qualifier == "layout" || qualifier == "subroutine") && is("(")) skip_balanced();
   }
   // `layout(...) in;` and `precise name;` have no type; a block has a name that is none
@@ -244,6 +260,7 @@ void Parser::function(const Declarator& declarator, const std::string& name) {
       variable.precise = parameter.precise;
       if (!parameter_name.empty()) declare(parameter_name, variable);
       function.parameters.push_back(parameter.type);
+      function.read.push_back(parameter.is_input);
       function.written.push_back(parameter.is_output);
     }
     accept(",");
@@ -265,6 +282,7 @@ void Parser::declarators(Declarator declarator) {
     Variable variable;
     variable.type = declarator.type;
     variable.precise = declarator.precise;
+    variable.declared_at = name;
     array_suffix(variable.type);
     ExpressionPtr declaration = make(Expression::Kind::declaration, name);
     declaration->const_token = declarator.const_token;
@@ -276,7 +294,7 @@ void Parser::declarators(Declarator declarator) {
       variable.constant = declarator.constant && value->constant;
       variable.has_zero = value->has_zero;
       variable.all_zero = value->all_zero;
-      variable.is_number = value->is_number;
+      variable.limit = declarator.constant ? value->limit : limit_of(name, value->limit);
       if (variable.constant) variable.integer = value->integer;
       declaration->operands.push_back(std::move(value));
     }

@@ -1,6 +1,7 @@
 // Expressions of the lint's parser: precedence climbing over GLSL's table of operators (GLSL 4.50 specification, 5.1).
 #include <algorithm>
 #include <cstdlib>
+#include <functional>
 
 #include "cpu_shaders/lint/parser.h"
 
@@ -28,7 +29,23 @@ bool all_constant(const std::vector<ExpressionPtr>& list) {
   return std::all_of(list.begin(), list.end(), [](const ExpressionPtr& e) { return e->constant; });
 }
 
-bool number(const ExpressionPtr& e) { return e->is_number || e->type.is_integer() || e->type.base == Base::boolean; }
+// Expression::limit, as a float.
+double limit(const Expression& e) {
+  if (e.type.base == Base::boolean) return 1.0;
+  return e.type.is_integer() ? 4294967296.0 : e.limit;
+}
+
+double finite_or_unlimited(double value) {
+  constexpr double kFiniteFloat = 3e38;  // short of the greatest, for the roundings on the way
+  return value <= kFiniteFloat ? value : kUnlimited;
+}
+
+double limit(std::string_view op, const Expression& a, const Expression& b) {
+  double result = kUnlimited;
+  if (op == "+" || op == "-") result = limit(a) + limit(b);
+  if (op == "*") result = limit(a) * limit(b) * (a.type.is_matrix() || b.type.is_matrix() ? 4.0 : 1.0);
+  return finite_or_unlimited(result);
+}
 
 GlslType literal_type(const std::string& text) {
   const bool hexadecimal = text.size() > 1 && (text[1] == 'x' || text[1] == 'X');
@@ -44,6 +61,47 @@ GlslType literal_type(const std::string& text) {
 bool takes(const Function& function, const std::vector<ExpressionPtr>& given) {
   return std::equal(given.begin(), given.end(), function.parameters.begin(), function.parameters.end(),
                     [](const ExpressionPtr& e, const GlslType& t) { return e->type == t; });
+}
+
+// How far an implicit conversion goes: 0, none is needed; nothing, there is none. A type that is not known may be any.
+std::optional<int> conversion(const GlslType& from, const GlslType& to) {
+  if (from == to || from.base == Base::unknown || to.base == Base::unknown) return 0;
+  const auto is_numeric = [](const GlslType& t) { return t.is_integer() || t.is_floating(); };
+  const bool same_shape =
+      from.columns == to.columns && from.rows == to.rows && from.array_dimensions == 0 && to.array_dimensions == 0;
+  if (!is_numeric(from) || !is_numeric(to) || !same_shape || from.base > to.base) return {};
+  return from.is_integer() && to.base == Base::float64 ? 2 : 1;
+}
+
+// Of each argument, or of what is written back into it; nothing where the function does not take them.
+std::optional<std::vector<int>> conversions(const Function& function, const std::vector<ExpressionPtr>& given) {
+  std::vector<int> list;
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const GlslType &argument = given[i]->type, &parameter = function.parameters[i];
+    const auto in = function.read[i] ? conversion(argument, parameter) : 0;
+    const auto out = function.written[i] ? conversion(parameter, argument) : 0;
+    if (!in || !out) return {};
+    list.push_back(std::max(*in, *out));
+  }
+  return list;
+}
+
+// Goes less far somewhere, and nowhere farther.
+bool is_better(const std::vector<int>& a, const std::vector<int>& b) {
+  return a != b && std::equal(a.begin(), a.end(), b.begin(), std::less_equal<>());
+}
+
+GlslType builtin_result(const Expression& call) {
+  std::vector<GlslType> types;
+  for (const ExpressionPtr& argument : call.operands) types.push_back(argument->type);
+  return builtin_type(call.text, types);
+}
+
+// The first argument that a built-in function writes, and all behind it; as many as there are where it writes none.
+std::size_t first_written(const Expression& builtin) {
+  if (one_of(builtin.text, {"modf", "frexp"})) return 1;
+  if (one_of(builtin.text, {"uaddCarry", "usubBorrow", "umulExtended", "imulExtended"})) return 2;
+  return builtin.text.starts_with("atomic") ? 0 : builtin.operands.size();
 }
 
 }  // namespace
@@ -92,18 +150,30 @@ ExpressionPtr Parser::assign(std::size_t op, std::size_t first, ExpressionPtr ta
   ExpressionPtr made = make(Kind::assign, op);
   made->type = target->type;
   made->precise = target->precise;
-  // What the variable is known to hold from here on; a component store tells nothing of the whole.
-  const Expression* root = target.get();
-  while (root->kind == Kind::member || root->kind == Kind::index) root = root->operands[0].get();
-  if (Variable* variable = root->kind == Kind::variable ? find_variable(root->text) : nullptr) {
-    const bool whole = root == target.get() && tokens_[op].text == "=";
-    variable->has_zero = whole && value != nullptr && value->has_zero;
-    variable->all_zero = whole && value != nullptr && value->all_zero;
-    variable->is_number = variable->is_number && value != nullptr && value->is_number;
-  }
+  stored(*target, tokens_[op].text == "=" ? value.get() : nullptr);
   made->operands.push_back(std::move(target));
   if (value) made->operands.push_back(std::move(value));
   return spanning(std::move(made), first);
+}
+
+void Parser::stored(const Expression& target, const Expression* value) {
+  const Expression* root = &target;
+  while (root->kind == Kind::member || root->kind == Kind::index) root = root->operands[0].get();
+  Variable* const variable = root->kind == Kind::variable ? find_variable(root->text) : nullptr;
+  if (!variable) return;
+  // What it is known to hold from here on; a component store tells nothing of the whole.
+  const bool whole = root == &target && value != nullptr;
+  variable->has_zero = whole && value->has_zero;
+  variable->all_zero = whole && value->all_zero;
+  double& known = stored_limits_[variable->declared_at];
+  known = std::max(known, value ? limit(*value) : kUnlimited);
+}
+
+// While the stores of the text are not known, a variable may hold anything.
+double Parser::limit_of(std::size_t declared_at, double initial) const {
+  if (!stores_are_known_) return kUnlimited;
+  const auto found = stored_limits_.find(declared_at);
+  return found == stored_limits_.end() ? initial : std::max(initial, found->second);
 }
 
 ExpressionPtr Parser::conditional() {
@@ -130,7 +200,7 @@ ExpressionPtr Parser::binary(int lowest_precedence) {
     ExpressionPtr right = binary(level + 1);
     made->type = binary_type(made->text, left->type, right->type);
     made->constant = left->constant && right->constant;
-    made->is_number = one_of(made->text, {"+", "-", "*"}) && number(left) && number(right);
+    made->limit = limit(made->text, *left, *right);
     made->operands.push_back(std::move(left));
     made->operands.push_back(std::move(right));
     left = spanning(std::move(made), first);
@@ -153,7 +223,7 @@ ExpressionPtr Parser::unary() {
   made->constant = operand->constant;
   made->has_zero = operand->has_zero;
   made->all_zero = operand->all_zero;
-  made->is_number = operand->is_number;
+  made->limit = operand->limit;
   if (operand->integer && made->text == "-") made->integer = -*operand->integer;
   if (operand->integer && made->text == "+") made->integer = operand->integer;
   made->operands.push_back(std::move(operand));
@@ -170,7 +240,7 @@ ExpressionPtr Parser::postfix() {
       made->precise = object->precise;
       made->constant = object->constant;
       made->has_zero = made->all_zero = object->all_zero;
-      made->is_number = object->is_number;
+      made->limit = object->limit;
       made->type = element_type(object->type);
       made->operands.push_back(std::move(object));
       made->operands.push_back(expression());
@@ -213,7 +283,7 @@ ExpressionPtr Parser::member_access(ExpressionPtr object) {
   }
   made->constant = object->constant;
   made->has_zero = made->all_zero = object->all_zero;
-  made->is_number = object->is_number;
+  made->limit = object->limit;
   made->operands.push_back(std::move(object));
   return spanning(std::move(made), first);
 }
@@ -243,17 +313,25 @@ std::vector<ExpressionPtr> Parser::arguments() {
   return list;
 }
 
-// By exact types, else by their number: implicit conversions do not change what the rules ask.
-const Function* Parser::find_function(const std::string& name, const std::vector<ExpressionPtr>& given) const {
-  const Function* by_number = nullptr;
-  const auto [first, last] = functions_.equal_range(name);
+// The overloads that GLSL's implicit conversions may mean. Several: a prototype and its function, or types that we
+// cannot tell from each other, as of arrays that differ in size.
+std::vector<const Function*> Parser::find_functions(const Expression& call) const {
+  std::vector<const Function*> candidates, best;
+  std::vector<std::pair<const Function*, std::vector<int>>> fitting;
+  const auto [first, last] = functions_.equal_range(call.text);
   for (auto it = first; it != last; ++it) {
-    const Function& candidate = it->second;
-    if (candidate.parameters.size() != given.size()) continue;
-    if (takes(candidate, given)) return &candidate;
-    by_number = &candidate;
+    if (it->second.parameters.size() != call.operands.size()) continue;
+    candidates.push_back(&it->second);
+    if (auto list = conversions(it->second, call.operands)) fitting.emplace_back(&it->second, std::move(*list));
   }
-  return by_number;
+  // None fits: a built-in function of the same name is called, or we took some argument for another type than it is.
+  if (fitting.empty() && builtin_result(call).base == Base::unknown) return candidates;
+  for (const auto& [function, list] : fitting) {
+    const bool is_best = std::none_of(fitting.begin(), fitting.end(),
+                                      [&list](const auto& other) { return is_better(other.second, list); });
+    if (is_best) best.push_back(function);
+  }
+  return best;
 }
 
 // name(...): a constructor, a function of the shader, or a built-in one.
@@ -271,18 +349,24 @@ ExpressionPtr Parser::invocation(std::size_t name, GlslType constructed) {
     // a matrix of one scalar is zero off its diagonal
     if (constructed.is_matrix() && made->operands.size() == 1 && made->operands[0]->type.rows == 1)
       made->has_zero = true;
-    made->is_number = std::all_of(made->operands.begin(), made->operands.end(), number);
+    made->limit = 0.0;
+    for (const ExpressionPtr& operand : made->operands) made->limit = std::max(made->limit, limit(*operand));
     if (constructed.is_integer() && made->operands.size() == 1) made->integer = made->operands[0]->integer;
-  } else if (const Function* function = find_function(made->text, made->operands)) {
+  } else if (const auto functions = find_functions(*made); !functions.empty()) {
     made->kind = Kind::call;
-    made->type = function->result;
-    made->written = function->written;
-    made->converts = !takes(*function, made->operands);
+    made->type = functions[0]->result;
+    made->written.resize(made->operands.size());
+    for (const Function* function : functions) {
+      for (std::size_t i = 0; i < made->operands.size(); ++i)
+        made->written[i] = made->written[i] || function->written[i];
+      made->converts = made->converts || !takes(*function, made->operands);
+    }
+    for (std::size_t i = 0; i < made->operands.size(); ++i)
+      if (made->written[i]) stored(*made->operands[i], nullptr);
     made->constant = false;
   } else {
-    std::vector<GlslType> types;
-    for (const ExpressionPtr& argument : made->operands) types.push_back(argument->type);
-    made->type = builtin_type(made->text, types);
+    made->type = builtin_result(*made);
+    for (std::size_t i = first_written(*made); i < made->operands.size(); ++i) stored(*made->operands[i], nullptr);
   }
   return spanning(std::move(made), name);
 }
@@ -305,7 +389,7 @@ ExpressionPtr Parser::primary() {
     if (literal->type.is_integer()) literal->integer = static_cast<long>(std::strtoul(token.text.c_str(), nullptr, 0));
     literal->has_zero = literal->all_zero =
         literal->integer ? *literal->integer == 0 : std::strtod(token.text.c_str(), nullptr) == 0.0;
-    literal->is_number = true;
+    literal->limit = finite_or_unlimited(std::strtod(token.text.c_str(), nullptr));
     return spanning(std::move(literal), start);
   }
   if (token.kind != Token::Kind::name) lost();
@@ -326,7 +410,7 @@ ExpressionPtr Parser::primary() {
     variable->constant = known->constant;
     variable->has_zero = known->has_zero;
     variable->all_zero = known->all_zero;
-    variable->is_number = known->is_number;
+    variable->limit = known->limit;
     variable->integer = known->integer;
   } else if (token.text.rfind("gl_Max", 0) == 0 || token.text.rfind("gl_Min", 0) == 0) {
     variable->type = scalar_type(Base::int32);

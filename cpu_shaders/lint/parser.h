@@ -18,7 +18,8 @@ struct Variable {
   bool precise = false;
   bool constant = false;                    // const, initialised with a constant
   bool has_zero = false, all_zero = false;  // as last assigned, in the order of the text
-  bool is_number = false;                   // as every value assigned so far
+  double limit = kUnlimited;                // Expression::limit, of every value that the text assigns anywhere
+  std::size_t declared_at = 0;              // token
   std::optional<long> integer;              // of a constant
 };
 
@@ -52,6 +53,7 @@ class Listener {
 struct Function {
   GlslType result;
   std::vector<GlslType> parameters;
+  std::vector<bool> read;     // in, inout
   std::vector<bool> written;  // out, inout
 };
 
@@ -83,6 +85,7 @@ class Parser {
   void skip_balanced();  // from an opening bracket to behind its closing one
 
   // declarations
+  void read();
   void external_declaration();
   bool at_declaration();
   Declarator qualifiers_and_type();
@@ -117,7 +120,10 @@ class Parser {
   ExpressionPtr make(Expression::Kind kind, std::size_t at) const;
   ExpressionPtr spanning(ExpressionPtr made, std::size_t first) const;
   ExpressionPtr assign(std::size_t op, std::size_t first, ExpressionPtr target, ExpressionPtr value);
-  const Function* find_function(const std::string& name, const std::vector<ExpressionPtr>& given) const;
+  // value: what the whole target then holds; null where that is not known.
+  void stored(const Expression& target, const Expression* value);
+  double limit_of(std::size_t declared_at, double initial) const;
+  std::vector<const Function*> find_functions(const Expression& call) const;
 
   // names
   void declare(const std::string& name, const Variable& variable) { scopes_.back()[name] = variable; }
@@ -132,6 +138,9 @@ class Parser {
   std::vector<std::map<std::string, Variable>> scopes_;
   std::map<std::string, std::map<std::string, Variable>> structures_;
   std::multimap<std::string, Function> functions_;
+  // By the token that declares a variable: the limit of what is stored into it. Complete once the text has been read.
+  std::map<std::size_t, double> stored_limits_;
+  bool stores_are_known_ = false;
 };
 
 }  // namespace twinshade::lint_detail

@@ -243,7 +243,7 @@ std::string select_minmax(const Expression& e, const Place& place) {
   if (e.kind != Kind::select && !mixes) return "";
   const Expression *first = e.operands[0].get(), *second = e.operands[1].get(), *third = e.operands[2].get();
   const Expression* taken = mixes ? taken_for_nan(*third, *second, *first) : taken_for_nan(*first, *second, *third);
-  return taken && !taken->constant && !taken->is_number ? (mixes ? e.text : "?:") : "";
+  return taken && !taken->constant && taken->limit == kUnlimited ? (mixes ? e.text : "?:") : "";
 }
 
 // Without the signs and the abs around it.

@@ -29,7 +29,7 @@ function(twinshade_add_shader target)
   if(NOT S_NAME MATCHES "^[A-Za-z][A-Za-z0-9_]*$")
     message(FATAL_ERROR "twinshade_add_shader: ${S_NAME} is no C++ identifier; give a NAME")
   endif()
-  if(S_NAME STREQUAL limits)  # g++'s <limits.h> includes the next one by quotes
+  if(S_NAME STREQUAL "limits")  # g++'s <limits.h> includes the next one by quotes
     message(FATAL_ERROR "twinshade_add_shader: limits.h would stand in for the system's; give ${S_FILE} another NAME")
   endif()
   set(library ${target}_${S_NAME})

@@ -13,6 +13,7 @@
 #include "cpu_shaders/lint/parser.h"
 #include "cpu_shaders/rewrite/exact_functions.h"
 #include "cpu_shaders/rewrite/token_edits.h"
+#include "cpu_shaders/source/find_word.h"
 #include "cpu_shaders/translate/compile_glsl.h"
 
 namespace twinshade {
@@ -74,22 +75,9 @@ class MakeExact : public Listener {
           edits_.replace(i, std::string(word.name) + "_name");
   }
 
-  // Names that are the shader's own, but begin as those of the functions that come before it.
-  template <class StandsBefore>
-  void rename_own_names(const StandsBefore& stands_before) {
-    const char* const prefix = scope_ == ExactScope::written_out ? "written_" : "exact_";
-    const auto is_ours = [prefix](const std::string& name) { return name.rfind(prefix, 0) == 0; };
-    const auto stands = [&](const Token& token) {
-      return stands_before(list_.files[static_cast<std::size_t>(token.file)]);
-    };
-    std::set<std::string> included;
-    for (const Token& token : list_.tokens)
-      if (token.kind == Token::Kind::name && is_ours(token.text) && stands(token)) included.insert(token.text);
-    for (std::size_t i = 0; i < list_.tokens.size(); ++i) {
-      const Token& token = list_.tokens[i];
-      if (token.kind == Token::Kind::name && is_ours(token.text) && included.count(token.text) == 0)
-        edits_.replace(i, token.text + "_name");
-    }
+  void rename(const std::set<std::string>& names) {
+    for (std::size_t i = 0; i < list_.tokens.size(); ++i)
+      if (names.count(list_.tokens[i].text) != 0) edits_.replace(i, list_.tokens[i].text + "_name");
   }
 
   void expression(const Expression& e, Role role) override {
@@ -372,8 +360,10 @@ class MakeExact : public Listener {
   }
 
   // An argument that GLSL converts to float, though we do not know which one: an integer of the same value.
-  void convertible(const Expression& e) {
-    if (hiding() && e.type.is_integer() && e.type.array_dimensions == 0) unseen(e, e.type);
+  bool convertible(const Expression& e) {
+    const bool hides = hiding() && e.type.is_integer() && e.type.array_dimensions == 0;
+    if (hides) unseen(e, e.type);
+    return hides;
   }
 
   bool call(const Expression& e) {
@@ -389,7 +379,7 @@ class MakeExact : public Listener {
     bool varies = operands(e, known);
     if (known != Known::nothing || !hiding()) return varies;
     if (e.type.base == Base::structure)
-      for (const ExpressionPtr& operand : e.operands) convertible(*operand);
+      for (const ExpressionPtr& operand : e.operands) varies |= convertible(*operand);
     if (e.type.base != Base::float32) return varies;
     bool converts = false;
     for (const ExpressionPtr& operand : e.operands) {
@@ -459,26 +449,38 @@ ExactShader make_exact(const ShaderSource& source, ExactScope scope) {
   const auto stands_before = [&](const std::string& file) {
     return scope == ExactScope::written_out ? exact_file(file) == "written_out" : !exact_file(file).empty();
   };
-  MakeExact rewrite(tokens, scope);
-  rewrite.rename_keywords(source);
-  rewrite.rename_own_names(stands_before);
-  Parser(tokens, rewrite).run();
-
   ExactShader result;
-  result.source = source;
-  result.source.version = 450;
-  result.source.es = false;
-  result.uses_zero = rewrite.uses_zero_;
-  result.changed = result.uses_zero || !rewrite.functions_.empty();
-  std::string text;
-  if (!source.es)
-    for (const std::string& extension : tokens.extensions) text += extension + "\n";
-  for (const std::string& file : tokens.files)
-    if (stands_before(file)) rewrite.functions_.include(exact_file(file));
-  text += rewrite.functions_.text(result.source.files);
-  if (result.uses_zero) text += std::string("uniform float ") + kExactZero + ";\n";
-  text += rewrite.edits_.lines(stands_before);
-  result.source.text = text;
+  const auto rewrite_and_rename = [&](const std::set<std::string>& names) {
+    MakeExact rewrite(tokens, scope);
+    rewrite.rename_keywords(source);
+    rewrite.rename(names);
+    Parser(tokens, rewrite).run();
+    result.source = source;
+    result.source.version = 450;
+    result.source.es = false;
+    result.uses_zero = rewrite.uses_zero_;
+    result.changed = result.uses_zero || !rewrite.functions_.empty();
+    for (const std::string& file : tokens.files)
+      if (stands_before(file)) rewrite.functions_.include(exact_file(file));
+    std::string before = rewrite.functions_.text(result.source.files);
+    if (result.uses_zero) before += std::string("uniform float ") + kExactZero + ";\n";
+    result.source.text.clear();
+    if (!source.es)
+      for (const std::string& extension : tokens.extensions) result.source.text += extension + "\n";
+    result.source.text += before + rewrite.edits_.lines(stands_before);
+    return before;
+  };
+  // The shader's own names give way to those of what comes to stand before it.
+  std::set<std::string> own, taken;
+  for (const Token& token : tokens.tokens)
+    if (token.kind == Token::Kind::name) own.insert(token.text);
+  for (const Token& token : tokens.tokens)
+    if (stands_before(tokens.files[static_cast<std::size_t>(token.file)])) own.erase(token.text);
+  const std::string before = rewrite_and_rename({});
+  for (const std::string& name : own)
+    if ((name.rfind("exact_", 0) == 0 || name.rfind("written_", 0) == 0) && find_word(before, name) != before.npos)
+      taken.insert(name);
+  if (!taken.empty()) rewrite_and_rename(taken);
   try {
     result.left = lint(result.source);
   } catch (const UserError& error) {

@@ -109,9 +109,10 @@ class Probe : public Listener {
     body_first_ = body_first;
     body_last_ = closing(body_first);
     std::size_t at = opening(body_first - 1) - 1;  // the name
-    result_last_ = at--;
+    const std::size_t behind_result = at--;
     while (list_.tokens[at].text == "]") at = opening(at) - 1;
-    result_first_ = at;
+    result_type_.clear();
+    for (std::size_t i = at; i < behind_result; ++i) result_type_ += list_.tokens[i].text + " ";
     for (header_first_ = at; header_first_ > 0; --header_first_)
       if (const std::string& text = list_.tokens[header_first_ - 1].text; text == ";" || text == "}") break;
     if (is_exact(list_.tokens[body_first].file)) exact_names_.insert(name);
@@ -140,8 +141,8 @@ class Probe : public Listener {
     if (!returned_.text.empty()) {
       if (const std::string told = tell(first, last, {returned_}); !told.empty())
         edits_.collapse(first, last,
-                        "{ " + edits_.text(result_first_, result_last_) + " " + returned_.text + " = " +
-                            returned_value_ + ";" + told + " return " + returned_.text + "; }");
+                        "{ " + result_type_ + returned_.text + " = " + returned_value_ + ";" + told + " return " +
+                            returned_.text + "; }");
       returned_.text.clear();
     }
     if (stored_.empty()) return;
@@ -269,11 +270,13 @@ class Probe : public Listener {
     if (e.kind != Kind::construct || local_types) return;
     std::string type;
     for (std::size_t i = e.first; i < e.last && list_.tokens[i].text != "("; ++i) {
-      if (list_.tokens[i].text == "]" && list_.tokens[i - 1].text == "[") {
-        if (e.type.array_dimensions > 1) return;
-        type += std::to_string(e.operands.size());
-      }
       type += list_.tokens[i].text;
+      if (list_.tokens[i].text != "[") continue;
+      // The function stands outside: a constant that is a size may be unknown there.
+      const bool literal = list_.tokens[i + 1].kind == Token::Kind::number && list_.tokens[i + 2].text == "]";
+      if (e.type.array_dimensions > 1 && !literal) return;
+      type += (literal ? list_.tokens[i + 1].text : std::to_string(e.operands.size())) + "]";
+      i = closing(i);
     }
     const std::string name = kThrough + ("_" + std::to_string(statements_.size()));
     const std::string told = tell(e.first, e.last, {{"v", what, e.type, e.first, e.last, false, computes(e)}});
@@ -393,8 +396,8 @@ class Probe : public Listener {
   const Parser* parser_ = nullptr;
   const std::optional<std::set<std::size_t>>& only_;
   // The function that was begun last: its tokens, from its header's first to its closing brace.
-  std::string function_;
-  std::size_t header_first_ = 0, result_first_ = 0, result_last_ = 0, body_first_ = 0, body_last_ = 0;
+  std::string function_, result_type_;
+  std::size_t header_first_ = 0, body_first_ = 0, body_last_ = 0;
   std::set<std::string> exact_names_;  // functions of shaders/exact/
   std::vector<Target> globals_, stored_;
   std::vector<std::vector<Target>> headers_;  // of the for loops around

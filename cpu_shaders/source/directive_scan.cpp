@@ -74,6 +74,7 @@ std::vector<SourceLine> scan_lines(std::string_view text) {
     }
     ++at, ++number;
     recognise_directive(code, line);
+    line.code = std::move(code);
     lines.push_back(std::move(line));
   }
   return lines;

@@ -68,11 +68,11 @@ bool looks_hostile(const ShaderSource& source) {
     if (c == ';' || c == '{' || c == '}' || c == '#') statement = at;
     if (depth > kDeep || at - statement > kLongStatement) return true;
   }
-  if (text.find("define") != std::string::npos) {
+  if (text.find('#') != std::string::npos) {
     constexpr std::size_t kManyMacros = 16;
     constexpr double kManyTokens = 4096;
     const MacroUse use = estimate_macros(text);
-    if (use.macros > kManyMacros || use.tokens > kManyTokens) return true;
+    if (use.macros > kManyMacros || use.tokens > kManyTokens || use.unclear) return true;
   }
   static const std::regex array_constructor(R"(\b(\w+)\s*\[[^\]]*\]\s*(?:\[[^\]]*\]\s*)*\()");
   if (text.find("precise") == std::string::npos || text.find("struct") == std::string::npos) return false;

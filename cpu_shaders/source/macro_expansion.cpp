@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "cpu_shaders/source/directive_scan.h"
@@ -49,6 +50,8 @@ class Estimate {
  public:
   explicit Estimate(std::multimap<std::string, Definition> definitions) : definitions_(std::move(definitions)) {}
 
+  bool unclear() const { return unclear_; }
+
   // What the macros of `text` become; the other tokens do not count, unless `within` says that the text is a macro's.
   Size of(std::string_view text, const Definition* within) {
     Size size{0, 0};
@@ -84,9 +87,11 @@ class Estimate {
       if (is_parameter) {
         size.copies += copies;
       } else if (definitions_.count(word) != 0) {
-        const Size& macro = of_macro(word);
+        const Size macro = of_macro(word);
         size.tokens += macro.tokens * copies;
         next = std::max(macro.copies, 1.0);
+        const std::size_t behind = std::min(text.find_first_not_of(" \t\r\n\v\f", at), text.size());
+        unclear_ = unclear_ || (takes_arguments(word) && text.substr(behind, 1) != "(");
       } else if (within != nullptr || copies > 1) {
         size.tokens += copies;
       }
@@ -95,20 +100,31 @@ class Estimate {
   }
 
  private:
-  const Size& of_macro(const std::string& name) {
-    const auto [found, is_new] = sizes_.try_emplace(name);  // one that stands within itself is not expanded again
-    if (!is_new) return found->second;
+  bool takes_arguments(const std::string& name) const {
+    const auto [first, last] = definitions_.equal_range(name);
+    return std::any_of(first, last, [](const auto& entry) { return entry.second.takes_arguments; });
+  }
+
+  Size of_macro(const std::string& name) {
+    if (const auto found = sizes_.find(name); found != sizes_.end()) return found->second;
+    if (!open_.insert(name).second) {
+      unclear_ = true;
+      return {};
+    }
     Size largest;
     for (auto [definition, end] = definitions_.equal_range(name); definition != end; ++definition) {
       const Size size = of(definition->second.body, &definition->second);
       largest.tokens = std::max(largest.tokens, size.tokens);
       largest.copies = std::max(largest.copies, size.copies);
     }
+    open_.erase(name);
     return sizes_[name] = largest;
   }
 
   std::multimap<std::string, Definition> definitions_;
   std::map<std::string, Size> sizes_;
+  std::set<std::string> open_;  // whose size is being told
+  bool unclear_ = false;
 };
 
 }  // namespace
@@ -117,12 +133,20 @@ MacroUse estimate_macros(std::string_view text) {
   constexpr std::size_t kMost = 100;  // each may stand within the next: so deep goes the search
   MacroUse use;
   std::multimap<std::string, Definition> definitions;
-  std::string code;
+  std::string code, conditions;
   for (const SourceLine& line : scan_lines(text)) {
-    if (line.directive.empty()) code += line.text + "\n";
-    if (line.directive == "define" && ++use.macros <= kMost) definitions.insert(read_definition(line.arguments));
+    if (line.directive.empty()) code += line.code + "\n";
+    if (line.directive == "if" || line.directive == "elif" || line.directive == "line")
+      conditions += line.arguments + "\n";
+    if (line.directive != "define") continue;
+    use.unclear = use.unclear || line.arguments.find("##") != std::string::npos || ++use.macros > kMost;
+    if (use.macros <= kMost) definitions.insert(read_definition(line.arguments));
   }
-  if (!definitions.empty()) use.tokens = Estimate(std::move(definitions)).of(code, nullptr).tokens;
+  if (definitions.empty()) return use;
+  Estimate estimate(std::move(definitions));
+  use.tokens = estimate.of(code, nullptr).tokens;
+  use.unclear = use.unclear || estimate.unclear();
+  use.tokens += estimate.of(conditions, nullptr).tokens;  // where a name may stand without arguments: defined(NAME)
   return use;
 }
 

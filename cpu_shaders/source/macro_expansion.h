@@ -10,7 +10,10 @@ namespace twinshade {
 
 struct MacroUse {
   std::size_t macros = 0;  // #define lines
-  double tokens = 0;       // at most that all uses of macros become; of macros past the 100th: not counted
+  double tokens = 0;       // at most that all uses of macros become
+  // Cannot be told: macros within each other, ##, or the name of one that takes arguments without its arguments, which
+  // may get them elsewhere.
+  bool unclear = false;
 };
 
 // Conditionals are not decided: of several definitions of one name the largest counts.

@@ -147,6 +147,10 @@ TEST_CASE("of the ranges in the branches of an #if, those of the one that is com
   CHECK(ranges[0].where == "s.frag:3: ");
   CHECK(ranges[1].where == "s.frag:8: ");
   CHECK(ranges[0].intervals == std::vector{std::pair{5.0, 6.0}});
+  CHECK(declared_ranges(shader("# ifdef A\n// @input x 0..1\n# else\n// @input x 0..2\n# endif")).size() == 1);
+  // No pragma may stand among a macro's arguments: then all comments count.
+  CHECK(declared_ranges(shader("#if 1\n#endif\n#define F(a, b) a + b\nfloat y = F(1.0, // @input x 0..1\n2.0);"))
+            .size() == 1);
   CHECK_THROWS_WITH_AS(declared_ranges(shader("#if 1\n// @input x 0..1\n#endif\n#error no")),
                        doctest::Contains("s.frag:4: "), UserError);
 }

@@ -81,7 +81,9 @@ const std::vector<Samples>& samples() {
         "precise float x = a.x - 0.0;", "precise float sum = 0.0; for (int i = 0; i < 4; ++i) sum += a.x;",
         "precise vec3 v = a + vec3(0);", "const float none = 0.0; precise float x = a.x * none;",
         "precise float x = 0.0 / a.x;", "precise vec2 v = vec2(b.x, 0.0) + a.xy;", "precise float x = a.x; x += -0.0;"},
-       {"precise float x = a.x * 1.0;", "float x = 0.0;", "precise float x = 0.0; x = a.x; x += b.x;", "int i = k * 0;",
+       {"precise float x = 0.0; fill(x); x += b.x;",
+        "uint c = 0u; uint s = uaddCarry(u, 7u, c); precise float x = a.x * float(c);", "precise float x = a.x * 1.0;",
+        "float x = 0.0;", "precise float x = 0.0; x = a.x; x += b.x;", "int i = k * 0;",
         "precise float x = a.x > 0.0 ? a.x : 0.0; x += b.x;", "vec4 v = vec4(a, 0.0);"}},
       {"function",
        {"float x = dot(a, b);", "float x = length(a);", "vec3 v = normalize(a);", "vec3 v = cross(a, b);",
@@ -110,10 +112,19 @@ const std::vector<Samples>& samples() {
         "float x = ((a).x >= (b.x)) ? (a.x) : b.x;", "float x = mix(a.x, b.x, a.x < b.x);",
         "vec3 v = mix(a, b, not(lessThan(b, a)));",
         "precise float last = float(k); last = a.y; float x = a.x < last ? a.x : last;",
-        "float x = twice(a.x) > b.x ? twice(a.x) : b.x;"},
+        "float x = twice(a.x) > b.x ? twice(a.x) : b.x;",
+        // NaN by an out argument, a compound assignment, a later line of a loop, or infinities
+        "float m = 1.0; fill(m); float x = a.x < m ? a.x : m;",
+        "precise float m = 2.0; m /= m - 2.0; float x = a.x < m ? a.x : m;",
+        "precise float m = 2.0; m *= 4.0; float x = a.x < m ? a.x : m;",
+        "vec2 m = vec2(1.0); m.x = a.y; float x = a.x < m.x ? a.x : m.x;",
+        "float m = 1.0; for (int i = 0; i < k; ++i) { float x = a.x < m ? a.x : m; m = b.x; }",
+        "float m = 1.0; do { float x = a.x < m ? a.x : m; fill(m); } while (m < b.x);",
+        "float big = 1.70141183e38; precise float m = k * big, n = m - m; float x = a.x < n ? a.x : n;"},
        {"float x = a.x > b.x ? a.y : b.x;", "float x = a.x < 1.0 ? a.x : 1.0;", "float x = a.x > 0.0 ? a.x : -a.x;",
         "float x = !(a.x > HALF) ? HALF : a.x;",
         "precise float last = float(k) - 1.0; float x = a.x < last ? a.x : last;",
+        "float m = 1.0; if (k > 3) m = float(k); for (; m < b.x; m = HALF) { float x = a.x < m ? a.x : m; }",
         "precise float x = mix(a.x, b.x, a.x < b.x);", "precise vec3 v = mix(a, b, lessThan(a, b));",
         "int i = k < 3 ? k : 3;", "float x = a.x == b.x ? a.x : b.x;"}},
       {"minmax-abs",
@@ -249,6 +260,45 @@ TEST_CASE("blocks, structures, arrays and overloads are followed") {
   // A variable hides the structure of its name, within its block.
   CHECK(rules_of(lint(shader_of("{ Inner i; float Inner = a.x; Inner = -Inner; } Inner j; float x = j.v[0].x * 2.0;",
                                 before))) == "precise");
+}
+
+TEST_CASE("an overload is found as GLSL's implicit conversions find it") {
+  // Only a call that writes its last argument breaks a rule: it stores through a variable index.
+  const auto rules = [](const std::string& overloads, const std::string& call) {
+    CAPTURE(overloads);
+    CAPTURE(call);
+    return rules_of(lint(shader_of("vec3 v = a; ivec3 w = ivec3(k); " + call, overloads)));
+  };
+  for (const std::string writes_first : {"void g(float x, out float n) { n = x; } void g(vec2 x, float n) {}",
+                                         "void g(vec2 x, float n) {} void g(float x, out float n) { n = x; }",
+                                         "void g(float x, out float n); void g(vec2 x, float n) {}"
+                                         " void g(float x, out float n) { n = x; }"}) {
+    CHECK(rules(writes_first, "g(k, v[k]);") == "vector-store");
+    CHECK(rules(writes_first, "g(u, v[k]);") == "vector-store");
+    CHECK(rules(writes_first, "g(a.xy, v[k]);") == "");
+  }
+  // exact before converted, each in its own order of the text
+  CHECK(rules("void g(uint x, out float n) { n = 1.0; } void g(float x, float n) {}", "g(u, v[k]);") == "vector-store");
+  CHECK(rules("void g(uint x, out float n) { n = 1.0; } void g(float x, float n) {}", "g(a.x, v[k]);") == "");
+  // an out argument is converted the other way round: an int does not take a float
+  CHECK(rules("void g(out int n) { n = 1; } void g(float n) {}", "g(v[k]);") == "");
+  CHECK(rules("void g(out int n) { n = 1; } void g(vec2 n) {}", "g(v[k]);") == "vector-store");
+  CHECK(rules("void g(vec2 x, out int n) { n = 1; } void g(float x, inout int n) {}", "g(k, w[k]);") == "vector-store");
+  // arrays that differ in size are one type to the lint: where either overload writes, the call may
+  CHECK(rules("void g(float x[2], out float n) { n = 1.0; } void g(float x[3], float n) {}",
+              "g(float[3](1.0, 1.0, 1.0), v[k]);") == "vector-store");
+  // an overload of a built-in function leaves the built-in one
+  CHECK(rules("vec2 abs(out mat2 n) { n = mat2(1.0); return n[0]; }", "float x = abs(v[k]);") == "");
+}
+
+TEST_CASE("what a function stores in a global variable may be NaN where another compares it") {
+  const std::string stores = "float kept = 1.0; void keep(float x) { kept = x; }\n";
+  const std::string keeps = "float kept = 1.0; void keep() { kept = 2.0; }\n";
+  const std::string least = "float least(float x) { return x < kept ? x : kept; }\n";
+  CHECK(rules_of(lint(shader_of("keep(a.x); color.x = least(a.y);", stores + least))) == "select-minmax");
+  CHECK(rules_of(lint(shader_of("keep(a.x); color.x = least(a.y);",
+                                "float kept = 1.0;" + least + "void keep(float x) { kept = x; }"))) == "select-minmax");
+  CHECK(rules_of(lint(shader_of("keep(); color.x = least(a.y);", keeps + least))) == "");
 }
 
 TEST_CASE("the parser keeps its place through everything that GLSL allows") {

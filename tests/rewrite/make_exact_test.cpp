@@ -176,16 +176,30 @@ TEST_CASE("written out are division, roots and limits alone, by component, withi
 TEST_CASE("a shader's own names that are those of exact functions are given way to, included ones are called") {
   const ShaderSource own = resolve_shader(
       "own",
-      "in float a; out float r; uniform float exact_zero;\nfloat exact_add(float x, float y) { return x + 2.0 * y; }\n"
-      "void main() { float exact_multiply = exact_add(a, exact_zero); r = a * exact_multiply; }\n",
+      "in float a; out float r; uniform float exact_zero;\nfloat exact_add(float x, float y) { return x + 0.0 * y; }\n"
+      "uniform float exact_scale;\nvoid main() { float exact_multiply = exact_add(a, exact_zero); r = a * "
+      "exact_multiply * exact_scale; }\n",
       "own.frag");
   const ExactShader exact = make_exact(own);
   CHECK_NOTHROW(compile_glsl(exact.source));
   CHECK(plain_body(exact).find("exact_multiply_name=exact_add_name(a,exact_zero_name);") != std::string::npos);
+  CHECK(exact.source.text.find("exact_scale_name") == std::string::npos);  // there is no such function
   const ShaderSource included = resolve_shader(
       "included", "#include \"exact/dot.glsl\"\nin vec3 a; out float r;\nvoid main() { r = exact_dot(a, a) + 1.0; }\n",
       "included.frag");
   CHECK(plain_body(make_exact(included)) == "r=exact_add(exact_dot(a,a),1.0);");
+}
+
+TEST_CASE("constant structures whose members are zeros become variables") {
+  for (const std::string constant :
+       {"const Pair t = Pair(0, 0);", "const Pair t[2] = Pair[](Pair(1, 0), Pair(0, 0));"}) {
+    const ShaderSource source =
+        resolve_shader("t",
+                       "struct Pair { int a; float b; };\n" + constant + "\nin float a; out float r;\n" +
+                           "void main() { r = a * (t" + (constant.find('[') < 20 ? "[0]" : "") + ".b + 1.0); }\n",
+                       "t.frag");
+    CHECK_NOTHROW(compile_glsl(make_exact(source).source));
+  }
 }
 
 TEST_CASE("the scope of constants leaves the rest alone") {

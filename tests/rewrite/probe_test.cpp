@@ -148,6 +148,19 @@ TEST_CASE("what a call hands over is told at the call's line, structures and arr
     CHECK(statement.what.find("of exact_") == std::string::npos);
 }
 
+TEST_CASE("constructed arguments within functions that return a value, and of sizes that are local constants") {
+  for (const std::string functions :
+       {"struct S { float a; }; float f(S s) { return exp(s.a); } float g(float x) { return f(S(x + 1.0)); }",
+        "float f(float[2] a) { return exp(a[0]) + a[1]; }\n"
+        "float g(float x) { float y = f(float[](x, 1.0)); if (y > 2.0) return y * 3.0; return y * 2.0; }",
+        "float f(float[2] a) { return exp(a[0]) + a[1]; }\n"
+        "float g(float x) { const int N = 2; return f(float[N](x, x * 2.0)); }"})
+    CHECK_NOTHROW(compile_glsl(
+        add_probes(
+            resolve_shader("t", "in float x; out float r;\n" + functions + "\nvoid main() { r = g(x); }\n", "t.frag"))
+            .source));
+}
+
 TEST_CASE("returned arrays are told") {
   const ShaderSource source = resolve_shader("t",
                                              "in vec4 a; out vec4 c;\n"

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <system_error>
 #include <thread>
 
 #include "raster/gl/worker/failure.h"
@@ -32,7 +33,7 @@ DrawReply failure(Outcome outcome, const std::string& text) {
 }
 
 // A draw may take long after its parent was killed: its end of the socket closes, and nobody waits for this one.
-void end_with_parent() {
+void end_with_parent() try {
   std::thread([] {
     pollfd end{kWorkerSocket, POLLRDHUP, 0};
     while (poll(&end, 1, -1) < 0 && errno == EINTR) {
@@ -40,6 +41,7 @@ void end_with_parent() {
     sleep(1);  // what is between draws ends by itself
     _exit(0);
   }).detach();
+} catch (const std::system_error&) {  // no thread to be had: the alarm is left
 }
 
 // Should the parent hang as well, the alarm ends what a driver does not.

@@ -111,7 +111,8 @@ class Generator {
   Scope scope_;                       // innermost last
   std::vector<std::string> globals_;  // may be written by functions
   Function current_;
-  bool in_main_ = false, may_hoist_ = true, in_loop_ = false, in_switch_ = false;
+  bool in_main_ = false, may_hoist_ = true, in_loop_ = false;
+  int switches_ = 0;  // around, within the loop
   int indent_ = 0, names_ = 0, nesting_ = 0, statements_left_ = 0;
   int cost_ = 0, times_ = 1;  // statements that an invocation runs so far; of them how many for one written here
 };

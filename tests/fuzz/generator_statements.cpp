@@ -106,10 +106,11 @@ void Generator::choice() {
 }
 
 void Generator::loop_body() {
-  const bool outer_loop = in_loop_, outer_switch = in_switch_;
-  in_loop_ = true, in_switch_ = false;
+  const bool outer_loop = in_loop_;
+  const int outer_switches = switches_;
+  in_loop_ = true, switches_ = 0;
   block(1 + below(3));
-  in_loop_ = outer_loop, in_switch_ = outer_switch;
+  in_loop_ = outer_loop, switches_ = outer_switches;
 }
 
 void Generator::loop() {
@@ -158,8 +159,7 @@ void Generator::switch_statement() {
   for (std::size_t k = labels.size(); k-- > 1;)
     std::swap(labels[k], labels[static_cast<std::size_t>(below(static_cast<int>(k) + 1))]);
   labels.resize(static_cast<std::size_t>(1 + below(5)));
-  const bool outer = in_switch_;
-  in_switch_ = true;
+  ++switches_;
   ++indent_;
   for (std::size_t k = 0; k < labels.size(); ++k) {
     const std::string label = labels[k] < 0 ? "default:" : "case " + std::to_string(labels[k]) + u + ":";
@@ -173,7 +173,7 @@ void Generator::switch_statement() {
     line(!last && chance(40) ? "}" : "} break;");
   }
   --indent_;
-  in_switch_ = outer;
+  --switches_;
   line("}");
 }
 
@@ -182,11 +182,12 @@ void Generator::leave() {
   const std::string condition = truth(2);
   std::string jump;
   if (in_loop_ && chance(60))
-    jump = in_switch_ && chance(50) ? "break;" : pick({"break;", "continue;"});
-  else if (in_switch_)
+    jump = switches_ > 0 && chance(50) ? "break;" : pick({"break;", "continue;"});
+  else if (switches_ > 0)
     jump = "break;";
   else if (in_main_ && allowed(15) && chance(40))
     jump = "discard;";
+  if (switches_ > 1 && jump == "continue;") jump = "break;";  // Mesa goes wrong there (docs/hardening.md)
   if (jump.empty() && !in_main_ && allowed(16)) {
     line("if (" + condition + ") {");
     ++indent_;

@@ -328,7 +328,7 @@ std::vector<const Function*> Parser::find_functions(const Expression& call) cons
   if (fitting.empty() && builtin_result(call).base == Base::unknown) return candidates;
   for (const auto& [function, list] : fitting) {
     const bool is_best = std::none_of(fitting.begin(), fitting.end(),
-                                      [&list](const auto& other) { return is_better(other.second, list); });
+                                      [&list = list](const auto& other) { return is_better(other.second, list); });
     if (is_best) best.push_back(function);
   }
   return best;

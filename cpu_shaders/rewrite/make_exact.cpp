@@ -9,8 +9,8 @@
 #include <set>
 
 #include "base/error.h"
-#include "cpu_shaders/lint/constants.h"
 #include "cpu_shaders/lint/parser.h"
+#include "cpu_shaders/rewrite/constants.h"
 #include "cpu_shaders/rewrite/exact_functions.h"
 #include "cpu_shaders/rewrite/token_edits.h"
 #include "cpu_shaders/source/find_word.h"

@@ -1,4 +1,4 @@
-#include "cpu_shaders/lint/constants.h"
+#include "cpu_shaders/rewrite/constants.h"
 
 #include <algorithm>
 #include <cmath>

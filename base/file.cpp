@@ -153,6 +153,9 @@ void write_file_with(const std::string& path, const std::function<void(const std
       write_in_place(path, to, read_file(temporary));
       fs::remove(temporary, code);
     } else {
+      // a file that is replaced keeps who may read and write it
+      if (const fs::file_status replaced = fs::status(to.file, code); fs::is_regular_file(replaced))
+        fs::permissions(temporary, replaced.permissions(), code);
       fs::rename(temporary, to.file, code);
       if (code) refuse_writing(path, code.message());
     }

@@ -139,6 +139,17 @@ TEST_CASE("results go to pipes, links and stdout, which stay what they are") {
   CHECK(both.out == read_file(folder / "table") + read_file(out));
 }
 
+TEST_CASE("a file that is replaced keeps its permissions") {
+  const Folder folder;
+  const std::string file = folder / "out.json";
+  write_file(file, "{}");
+  const fs::perms own = fs::perms::owner_read | fs::perms::owner_write;
+  fs::permissions(file, own);
+  REQUIRE(run_twinshade({"list", "techniques", "--json", file}).code == 0);
+  CHECK(fs::status(file).permissions() == own);
+  CHECK(read_file(file) != "{}");
+}
+
 TEST_CASE("JUnit XML goes to stdout if asked, alone, but not beside JSON") {
   const Folder folder;
   const std::vector<std::string> eval{

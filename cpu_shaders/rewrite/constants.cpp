@@ -1,6 +1,8 @@
 #include "cpu_shaders/rewrite/constants.h"
 
 #include <algorithm>
+
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -22,7 +24,14 @@ void NeededConstants::expression(const Expression& e, Role role) {
   if (role == Role::constant) return need(e);
   if (e.kind != Kind::declaration) return;
   if (needs_constant(e)) need(e);
-  if (e.const_token) made_of_[e.text].push_back(names(e));
+  if (!e.const_token) return;
+  std::set<std::string>& together = declared_together_[*e.const_token];
+  made_of_[e.text].push_back(names(e));
+  made_of_[e.text].push_back(together);
+  for (const std::string& other : together) made_of_[other].push_back({e.text});
+  if (std::any_of(together.begin(), together.end(), [this](const std::string& name) { return has(name); }))
+    need(e.text);
+  together.insert(e.text);
 }
 
 void NeededConstants::need(const Expression& e) {

@@ -11,7 +11,7 @@
 namespace twinshade::lint_detail {
 
 // The constants that must stay constants, by name: those that array sizes, case labels, other constants than floats
-// and initial values of uniforms are made of.
+// and initial values of uniforms are made of, and those that share a `const` with one of them.
 class NeededConstants : public Listener {
  public:
   explicit NeededConstants(const TokenList& list) { Parser(list, *this).run(); }
@@ -32,7 +32,8 @@ class NeededConstants : public Listener {
   void need(const std::string& name);
 
   std::set<std::string> names_;
-  std::map<std::string, std::vector<std::set<std::string>>> made_of_;
+  std::map<std::string, std::vector<std::set<std::string>>> made_of_;  // what they need in turn
+  std::map<std::size_t, std::set<std::string>> declared_together_;     // by their `const`
 };
 
 // Constants none of whose components are zero, as far as that is seen without computing: literals, and what is put

@@ -92,6 +92,16 @@ TEST_CASE("constants are computed where both machines compute alike, and literal
   CHECK(body_of("vec3 v = vec3(0);") == "vec3v=vec3(exact_zero);");
 }
 
+TEST_CASE("what shares a `const` with a constant that sizes an array stays one, and is hidden where it is used") {
+  for (const char* constants : {"const float s = 2.0, z = 0.0;", "const float z = 0.0, s = 2.0;"}) {
+    const std::string text = body_of(std::string(constants) + " float x[int(s)]; float y = a.x + z;");
+    CAPTURE(text);
+    CHECK(text.find("constfloat") != text.npos);
+    CHECK(text.find("floaty=exact_add(a.x,exact_unseen(z,exact_zero));") != text.npos);
+  }
+  CHECK(left_of("const float s = 2.0, x[int(s)] = float[](0.0, 1.0), z = 0.0; float y = a.x * x[1] + z;").empty());
+}
+
 TEST_CASE("no value is known to compilers, so that none can be computed to be zero, and no bit of it changes") {
   // as a whole, where something in it may be zero or arithmetic may make it so
   CHECK(body_of("float x = a.x * (1.0 - 1.0);") ==

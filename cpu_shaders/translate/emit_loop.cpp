@@ -73,7 +73,9 @@ std::string FunctionEmitter::loop_condition(const Statement& s, Id condition, bo
     }
   }
   if (!own_mask.empty()) return test + "any(" + own_mask + (may_discard ? " & kept)" : ")");
-  return may_discard ? test + "any(kept)" : test;
+  if (!may_discard) return test;
+  // lanes that did not come here are kept too
+  return test + (masks_.empty() ? "any(kept)" : "any(" + mask() + " & kept)");
 }
 
 void FunctionEmitter::loop(const Statement& s) {

@@ -74,7 +74,8 @@ void FunctionEmitter::run() {
   const bool returns_value = module_.type(result_type).kind != Kind::none;
   const std::string result = returns_value ? types_.name(result_type, at_.result_varying) : "void";
   position(info_.function->file, info_.function->line);
-  out_.open((at_.inlined ? "TWINSHADE_FUNCTION " : "TWINSHADE_APART ") + result + " " + at_.name + "(" + list_text + ") {");
+  out_.open((at_.inlined ? "TWINSHADE_FUNCTION " : "TWINSHADE_APART ") + result + " " + at_.name + "(" + list_text +
+            ") {");
   const bool served = is_served(module_, *info_.function);
   if (served) {
     const std::string& name = info_.function->name;
@@ -375,7 +376,10 @@ void FunctionEmitter::give_back(const Statement& s) {
     for (std::size_t k = masks_.size(); k-- > 0;) {
       const bool innermost = k + 1 == masks_.size();
       if (!innermost) left += ", " + masks_[k].name;
-      if (innermost && (masks_[k].uniform_depth > 0 || k == 0)) own = ", " + masks_[k].name;
+      // a loop asks its mask for the next iteration, whatever follows in this one
+      const Statement* construct = masks_[k].construct;
+      const bool asked_again = masks_[k].uniform_depth > 0 || (construct != nullptr && construct->shape == Shape::loop);
+      if (innermost && (asked_again || k == 0)) own = ", " + masks_[k].name;
     }
     out_.line("leave(" + mask() + left + own + ");");
     return;

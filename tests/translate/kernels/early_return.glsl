@@ -30,6 +30,30 @@ int search(int a, int b) {
     }
   }
 }
+// Loops whose bodies end in a return: the lanes that are left come to no second iteration.
+int once(int v) {
+  do {
+    if (v > 4) break;
+    return 3;
+  } while (false);
+  return 4;
+}
+int at_most_once(int n) {
+  for (int i = 0; i < n; i++) return i + 7;
+  return 4;
+}
+int nested_once(int v) {
+  do {
+    v++;
+    if (v > 4) break;
+    do {
+      if (v == 3) break;
+      return v;
+    } while (false);
+    v += 100;
+  } while (v < 3);
+  return v + 1000;
+}
 ivec4 kernel(int a, int b, float x, float y) {
   int low, high;
   split(a, low, high);
@@ -38,5 +62,6 @@ ivec4 kernel(int a, int b, float x, float y) {
     split(b, high, low);
     if (y > x) return ivec4(low, high, int(clamped(x) * 8.0f), -1);
   }
+  if (b == 7) return ivec4(once(a), at_most_once(a - 2), nested_once(a), 0);
   return ivec4(first_over(a * 3, b), low * 100 + high, int(clamped(x) * 8.0f), search(a, b));
 }

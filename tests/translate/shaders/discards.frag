@@ -15,6 +15,13 @@ int guarded(int n) {
   }
   return steps;
 }
+int never(int n) {
+  do {
+    discard;
+    return n;
+  } while (false);
+  return n;
+}
 void main() {
   if (a == 3) discard;
   answer = ivec4(a, b, 0, 0);
@@ -25,5 +32,9 @@ void main() {
   reject(11);
   for (int i = 0; i < 3; i++) if (i == b && a == 0) discard;
   answer.w = guarded(a);
+  // among lanes that go on
+  if (a == 7) { while (true) { answer.x = 2; discard; } }
+  if (b == 6) { for (int i = 0; i < 3; i++) { answer.y = 2; discard; } }
+  if (b == 7 && a > 0) answer.x = never(a);
   if (gl_HelperInvocation) answer.z = 99;
 }

@@ -26,6 +26,45 @@ std::string explained(const std::string& message) {
              : match.prefix().str() + match.str() + " (of extensions none is translated: write it in other terms)";
 }
 
+// Below 420, where glslang refuses a backslash that continues a line: joined, and as many lines after it empty.
+std::string with_joined_lines(const std::string& text) {
+  std::string joined;
+  std::size_t from = 0, continued = 0;
+  for (std::size_t end = text.find('\n'); end != text.npos; end = text.find('\n', from)) {
+    const bool continues = end > from && text[end - 1] == '\\';
+    joined.append(text, from, end - from - (continues ? 1 : 0));
+    from = end + 1;
+    if (continues) {
+      ++continued;
+      continue;
+    }
+    joined.append(continued + 1, '\n');
+    continued = 0;
+  }
+  return joined.append(text, from, text.npos);
+}
+
+// As glslang can bear #extension: of `warn` it reads positions that it has not set, and `all : disable` takes the
+// extension that our #line needs. What is left of `all` is what there is without it.
+std::string with_plain_extensions(const std::string& text) {
+  if (text.find("extension") == text.npos) return text;
+  static const std::regex directive(R"(^[ \t]*#[ \t]*extension[ \t]+(\w+)[ \t]*:[ \t]*(\w+))");
+  std::istringstream lines(text);
+  std::string line, plain;
+  while (std::getline(lines, line)) {
+    std::smatch match;
+    const std::size_t first = line.find_first_not_of(" \t");
+    if (first != line.npos && line[first] == '#' && std::regex_search(line, match, directive)) {
+      if (match[1] == "all")
+        line.clear();
+      else if (match[2] == "warn")
+        line.replace(std::size_t(match.position(2)), 4, "enable");
+    }
+    plain += line + '\n';
+  }
+  return plain;
+}
+
 }  // namespace
 
 void start_glslang() {
@@ -50,7 +89,8 @@ std::vector<int> glslang_versions(const ShaderSource& source) {
 }
 
 std::string glslang_text(const ShaderSource& source, int version) {
-  const std::string& text = source.text;
+  std::string text = with_plain_extensions(source.text);
+  if (!source.es && version < 420) text = with_joined_lines(text);
   const bool has_version = text.rfind("#version", 0) == 0;
   const std::size_t end = has_version ? text.find('\n') : 0;
   const std::size_t after = !has_version ? 0 : end == std::string::npos ? text.size() : end + 1;

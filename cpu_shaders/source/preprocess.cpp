@@ -33,18 +33,9 @@ std::string preprocess_as(const ShaderSource& source, int version) {
   return result;
 }
 
-// As the author's version, and as 450 where it has lines that are continued by a backslash, which are of 420: not if the
-// text can tell.
 std::string preprocess_locked(const ShaderSource& source) {
   start_glslang();
-  if (source.es) return preprocess_as(source, source.version);
-  const std::vector<int> versions = glslang_versions(source);
-  try {
-    return preprocess_as(source, versions.front());
-  } catch (const UserError&) {
-    if (versions.size() == 1 || source.text.find("__VERSION__") != std::string::npos) throw;
-  }
-  return preprocess_as(source, versions.back());
+  return preprocess_as(source, source.version);
 }
 
 }  // namespace

@@ -241,6 +241,7 @@ Program analyse(Module module) {
     FunctionInfo& info = program.functions[id];
     for (Function& f : program.module.functions)
       if (f.id == id) info.function = &f;
+    complete_struct_copies(program.module, *info.function);
     simplify(program.module, *info.function);
     info.body = structure(program.module, *info.function);
     fold_conditionals(program.module, info.body);

@@ -58,7 +58,10 @@ struct Program {
 // Structures every reachable function, folds conditional expressions and gathers the facts, liveness included.
 Program analyse(Module module);
 
-// Before all else: peephole.cpp.
+// Before all else: conversions that glslang leaves out. UserError for what it makes no sense of.
+void complete_struct_copies(Module& module, Function& function);
+
+// Before what follows: peephole.cpp.
 void simplify(Module& module, Function& function);
 
 // Turns  if (c) t = a; else t = b;  with pure a and b into t = select(c, a, b), where t is glslang's own temporary (the

@@ -39,7 +39,10 @@ TEST_CASE("macros are expanded, conditionals decided, and comments gone") {
 
 TEST_CASE("lines continued by a backslash are read in versions that had none") {
   for (const std::string version : {"330", "400", "410", "420", "450", "300 es"})
-    CHECK(has(preprocessed("#version " + version + "\n#define SUM(x) x + \\\n  one\nSUM(two)\n"), "two"));
+    for (const std::string more : {"", "#if __VERSION__ > 200\n#endif\n"})
+      CHECK(has(preprocessed("#version " + version + "\n" + more + "#define SUM(x) x + \\\n  one\nSUM(two)\n"), "two"));
+  CHECK_THROWS_WITH_AS(preprocessed("#version 330\n#define SUM(x) x + \\\n  one\n#if FOO(\n#endif\n"),
+                       doctest::Contains("t.frag:4: '#if'"), UserError);
 }
 
 TEST_CASE("compute shaders of versions that had none are read all the same") {

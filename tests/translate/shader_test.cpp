@@ -15,6 +15,7 @@ namespace twinshade {
 SHADER(swizzles)
 SHADER(discards)
 SHADER(memory)
+SHADER(block_structs)
 SHADER(buffers)
 SHADER(textures)
 SHADER(builtins)
@@ -159,6 +160,33 @@ TEST_CASE("uniforms and uniform blocks are read by constant, uniform and varying
       check_value(answer, "large_out", 1, i, -row - 299, number);
       check_value(answer, "large_out", 2, i, row + 299 + 1, number);
       check_value(answer, "large_out", 3, i, 2, number);
+    }
+  }
+}
+
+TEST_CASE("structs of blocks are chosen and compared like others, though they have a layout and no bools") {
+  Invocations in;
+  in.input = small_integers;
+  auto& lights = in.buffers["Lights"];  // std140 by hand: 16 bytes each, power 0, range 8
+  for (int k = 0; k < 4; ++k) {
+    const auto f = static_cast<float>(k + 1);
+    put(lights, 16 * static_cast<std::size_t>(k), f, 0.0f, f * 10, f * 100);
+  }
+  auto& switches = in.buffers["Switches"];  // 16 bytes each: value 0, on 4, both 8; any bit is true
+  put(switches, 0, 1.0f, 1, 0, 1), put(switches, 16, 1.0f, 1, 0, 0), put(switches, 32, 2.0f, 0, 0, 1);
+  put(switches, 48, 1.0f, 1, 0, 8);
+  for (Number number : kAll) {
+    const Answer answer = RUN(block_structs, number, in);
+    for (std::uint32_t i = 0; i < in.count; ++i) {
+      const int a = small_a(i), b = small_b(i), y = a > 3 ? 4 : b % 3 + 1, listed[] = {4, y, 3};
+      check_value(answer, "chosen", 0, i, y * 101, number);
+      check_value(answer, "chosen", 1, i, 3, number);
+      check_value(answer, "chosen", 2, i, a > 3 ? 20 : a, number);
+      check_value(answer, "chosen", 3, i, a > 5 ? b % 3 + 1 : listed[b % 3], number);
+      check_value(answer, "equal", 0, i, a % 3 == 0, number);
+      check_value(answer, "equal", 1, i, a % 3 != b % 3, number);
+      check_value(answer, "equal", 2, i, a % 3 != 2, number);
+      check_value(answer, "equal", 3, i, b > 3 ? a % 3 != 1 : 1, number);
     }
   }
 }

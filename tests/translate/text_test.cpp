@@ -46,6 +46,18 @@ TEST_CASE("whatever version a shader is read as, __VERSION__ is the author's and
   CHECK(has(of("#version 450\n#ifdef GL_SPIRV\n" + body + "#endif\n").cpp, "UF(450.0f)"));
 }
 
+TEST_CASE("#extension takes no behaviour that glslang cannot bear") {
+  const std::string body = "in vec4 f;\nout vec4 c;\nvoid main() { precise vec4 x = f * f; c = x; }\n";
+  for (const char* version : {"#version 330\n", "#version 450\n"})
+    for (const char* line : {"GL_ARB_gpu_shader5 : warn", "all : warn", "all : disable", "all: disable // none",
+                             "GL_ARB_gpu_shader5 : enable"}) {
+      CAPTURE(line);
+      CHECK(has(of(std::string(version) + "#extension " + line + "\n" + body).cpp, "x"));
+    }
+  CHECK_THROWS_WITH_AS(of("#version 330\n#extension all : disable\nout vec4 c;\nvoid main() { c = none; }\n"),
+                       doctest::Contains("sample.frag:4"), UserError);
+}
+
 TEST_CASE("what a version refuses is refused, whatever earlier version accepts it") {
   const std::string uniform_location =
       "layout(location = 1) uniform float k;\nout vec4 c;\nvoid main() { c = vec4(k); }\n";

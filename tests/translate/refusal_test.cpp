@@ -94,6 +94,14 @@ TEST_CASE("instructions that mean nothing to us are refused where they stand") {
                 "other than float");
 }
 
+// glslang's SPIR-V takes components of a scalar there.
+TEST_CASE("a struct with bools of a block is refused as a part of another value") {
+  check_refused(kHead +
+                    "struct S { float v; bool on; };\nlayout(std140) uniform Block { S s; };\nvoid main() {\n  S t;\n"
+                    "  t.on = true; t.v = 1.0;\n  S list[2] = S[2](s, t);\n  color = vec4(list[int(t.v)].v);\n}\n",
+                8, "assign it to a variable first");
+}
+
 TEST_CASE("glslang's messages come with the author's file and line") {
   check_refused(kHead + "void main() {\n  color = vec3(1.0);\n}\n", 4, "cannot convert");
   check_refused(kHead + "void main() { color = nothing; }\n", 3, "undeclared");

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/hash.h"
 #include "cpu_shaders/package/declaration_order.h"
 #include "cpu_shaders/package/value_tree.h"
 
@@ -118,8 +119,10 @@ std::vector<ValueNode> variable_tree(const std::vector<ReflectedVariable>& varia
 
 class HeaderWriter {
  public:
-  HeaderWriter(const Translation& translation, const ShaderSource& source, const std::vector<std::string>& isas)
-      : name_(translation.identifier),
+  HeaderWriter(const std::string& name, const Translation& translation, const ShaderSource& source,
+               const std::vector<std::string>& isas)
+      : name_(name),
+        identifier_(translation.identifier),
         reflection_(translation.reflection),
         file_(std::filesystem::path(source.files[0]).filename().string()),
         order_(declared_names(source.text)),
@@ -138,8 +141,8 @@ class HeaderWriter {
         "// All calls are safe from several threads at once; they throw std::invalid_argument where a texture or block "
         "is missing or\n// the spans differ in length.\n"
         "#pragma once\n\n#include <array>\n#include <bit>\n#include <cstddef>\n#include <cstdint>\n#include <span>\n\n"
-        "#include \"cpu_shaders/package/shader_types.h\"\n\nnamespace " +
-        name_ + " {\n\n";
+        "#include \"cpu_shaders/package/shader_types.h\"\n\n" +
+        open_namespaces() + "\n";
     text +=
         "// The same for all invocations; in float in double calls too. Textures and blocks stay the caller's.\nstruct "
         "Uniforms {\n" +
@@ -166,7 +169,7 @@ class HeaderWriter {
     } else {
       text += "// Not in double: " + r.no_float64_reason + "\n\n";
     }
-    return text + "}  // namespace " + name_ + "\n";
+    return text + close_namespaces();
   }
 
   std::string calls() const {
@@ -175,14 +178,14 @@ class HeaderWriter {
     for (const std::string& isa : isas_)
       text +=
           "extern const ShaderEntry " + entries(isa) + "[];\nextern const std::uint32_t " + entry_count(isa) + ";\n";
-    text += "}  // namespace twinshade\n\nnamespace " + name_ +
-            " {\nnamespace {\n\nnamespace package = twinshade::package;\n\n";
+    text += "}  // namespace twinshade\n\n" + open_namespaces() +
+            "namespace {\n\nnamespace package = twinshade::package;\n\n";
     text += bound_struct() + rows_struct() + entry_functions();
     text += "}  // namespace\n\n" + definitions("Inputs", "Outputs", "float", "Number::scalar", "widest()");
     if (has_double())
       text += definitions("InputsDouble", "OutputsDouble", "double", "Number::float64",
                           "scalar(twinshade::Number::float64)");
-    return text + "}  // namespace " + name_ + "\n";
+    return text + close_namespaces();
   }
 
  private:
@@ -194,8 +197,13 @@ class HeaderWriter {
   }
 
   bool has_double() const { return reflection_.no_float64_reason.empty(); }
-  std::string entries(const std::string& isa) const { return "twinshade_entries_" + name_ + "_" + isa; }
-  std::string entry_count(const std::string& isa) const { return "twinshade_entry_count_" + name_ + "_" + isa; }
+  // The inner one tells shaders of one name apart that are linked into one program.
+  std::string open_namespaces() const { return "namespace " + name_ + " {\ninline namespace " + identifier_ + " {\n"; }
+  std::string close_namespaces() const {
+    return "}  // namespace " + identifier_ + "\n}  // namespace " + name_ + "\n";
+  }
+  std::string entries(const std::string& isa) const { return "twinshade_entries_" + identifier_ + "_" + isa; }
+  std::string entry_count(const std::string& isa) const { return "twinshade_entry_count_" + identifier_ + "_" + isa; }
 
   std::string one_comment() const {
     return reflection_.uses_derivatives ? "// One invocation, alone in its quad: derivatives are 0.\n"
@@ -294,7 +302,7 @@ class HeaderWriter {
            ", Bound(uniforms).data(), inputs, outputs);\n}\n\n";
   }
 
-  const std::string& name_;
+  const std::string &name_, &identifier_;
   const Reflection& reflection_;
   const std::string file_;
   const std::vector<std::string> order_;
@@ -304,8 +312,19 @@ class HeaderWriter {
 
 }  // namespace
 
-CppHeader cpp_header(const Translation& translation, const ShaderSource& source, const std::vector<std::string>& isas) {
-  const HeaderWriter writer(translation, source, isas);
+std::string package_identifier(const std::string& name, const ShaderSource& source,
+                               const std::vector<std::string>& isas) {
+  Sha256 hash;
+  hash.add(source_hash(source));
+  for (const std::string& file : source.files) hash.add('\n' + file);
+  for (const std::string& isa : isas) hash.add('\n' + isa);
+  constexpr std::size_t kDigits = 16;
+  return name + "_" + hash.hex().substr(0, kDigits);
+}
+
+CppHeader cpp_header(const std::string& name, const Translation& translation, const ShaderSource& source,
+                     const std::vector<std::string>& isas) {
+  const HeaderWriter writer(name, translation, source, isas);
   return {writer.header(), writer.calls()};
 }
 

@@ -11,12 +11,19 @@
 namespace twinshade {
 
 struct CppHeader {
-  std::string header;  // everything is in a namespace named translation.identifier
-  std::string calls;   // includes "<identifier>.h"
+  std::string header;  // everything is in a namespace `name`
+  std::string calls;   // includes "<name>.h"
 };
 
-// source: what was translated; members come in the order of its declarations. isas: names of the instruction sets that
-// the translation is compiled for, "baseline" among them.
-CppHeader cpp_header(const Translation& translation, const ShaderSource& source, const std::vector<std::string>& isas);
+// What a packaged translation is to be made with as TranslateOptions::identifier: `name` and a hash of all that its
+// code comes from. Shaders of one name, of two libraries say, can then be linked into one program; where they are the
+// same shader, whichever the linker takes will do.
+std::string package_identifier(const std::string& name, const ShaderSource& source,
+                               const std::vector<std::string>& isas);
+
+// translation: with package_identifier(). source: what was translated; members come in the order of its declarations.
+// isas: names of the instruction sets that the translation is compiled for, "baseline" among them.
+CppHeader cpp_header(const std::string& name, const Translation& translation, const ShaderSource& source,
+                     const std::vector<std::string>& isas);
 
 }  // namespace twinshade

@@ -133,13 +133,19 @@ bool has_content(const std::string& path, const std::string& content) {
   }
 }
 
-void write_typed_cpp(const Job& job, const Translation& translation) {
-  if (spirv::is_cpp_keyword(translation.identifier))
-    throw UserError(job.source.files[0] + ": " + translation.identifier + " cannot be a C++ namespace; give a NAME");
-  const CppHeader typed = cpp_header(translation, job.source, job.isas);
+// The shader with its header; returns what `translate` does.
+Translation write_typed_cpp(const Job& job) {
+  const std::string name = job.options.identifier.empty() ? identifier_from(job.source.name) : job.options.identifier;
+  if (spirv::is_cpp_keyword(name))
+    throw UserError(job.source.files[0] + ": " + name + " cannot be a C++ namespace; give a NAME");
+  TranslateOptions options = job.options;
+  options.identifier = package_identifier(name, job.source, job.isas);
+  Translation translation = translate(job.source, options);
+  const CppHeader typed = cpp_header(name, translation, job.source, job.isas);
   const std::filesystem::path folder(job.header_folder);
-  write_file((folder / (translation.identifier + ".h")).string(), typed.header);
-  write_file((folder / (translation.identifier + "_calls.cpp")).string(), typed.calls);
+  write_file((folder / (name + ".h")).string(), typed.header);
+  write_file((folder / (name + "_calls.cpp")).string(), typed.calls);
+  return translation;
 }
 
 void append_escaped(std::string& text, const std::string& path) {
@@ -163,8 +169,7 @@ std::string depfile_of(const Job& job) {
 }
 
 void run(const Job& job) {
-  const Translation translation = translate(job.source, job.options);
-  if (!job.header_folder.empty()) write_typed_cpp(job, translation);
+  const Translation translation = job.header_folder.empty() ? translate(job.source, job.options) : write_typed_cpp(job);
   if (!job.depfile.empty()) write_file(job.depfile, depfile_of(job));
   if (!job.depfile.empty() || !has_content(job.output, translation.cpp)) write_file(job.output, translation.cpp);
 }

@@ -12,7 +12,7 @@ namespace {
 
 CppHeader header_of(const std::string& glsl) {
   const ShaderSource source = resolve_shader("mine", glsl, "folder/mine.frag");
-  return cpp_header(translate(source), source, {"baseline"});
+  return cpp_header("mine", translate(source), source, {"baseline"});
 }
 
 bool comes_before(const std::string& text, const std::string& a, const std::string& b) {
@@ -20,6 +20,32 @@ bool comes_before(const std::string& text, const std::string& a, const std::stri
 }
 
 }  // namespace
+
+TEST_CASE("shaders of one name that differ have no symbol in common, the same shader has the same ones") {
+  const std::string glsl = "in float x;\nout float r;\nvoid main() { r = x; }\n";
+  const ShaderSource source = resolve_shader("mine", glsl, "folder/mine.frag");
+  const std::vector<std::string> isas = {"baseline"};
+  TranslateOptions options;
+  options.identifier = package_identifier("mine", source, isas);
+  CHECK(options.identifier == package_identifier("mine", resolve_shader("mine", glsl, "folder/mine.frag"), isas));
+  for (const ShaderSource& other :
+       {resolve_shader("mine", glsl + " ", "folder/mine.frag"), resolve_shader("mine", glsl, "elsewhere/mine.frag")})
+    CHECK(options.identifier != package_identifier("mine", other, isas));
+  CHECK(options.identifier != package_identifier("mine", source, {"baseline", "avx2"}));
+
+  const Translation translation = translate(source, options);
+  const CppHeader typed = cpp_header("mine", translation, source, isas);
+  const std::string namespaces = "namespace mine {\ninline namespace " + options.identifier + " {\n";
+  CHECK(typed.header.find(namespaces) != std::string::npos);
+  CHECK(typed.calls.find(namespaces) != std::string::npos);
+  CHECK(typed.calls.find("#include \"mine.h\"") != std::string::npos);
+  CHECK(typed.calls.find(" twinshade_entries_" + options.identifier + "_baseline[]") != std::string::npos);
+  for (const char* symbol : {"namespace shader_", "twinshade_module_", "twinshade_entries_", "twinshade_entry_count_"})
+    for (std::size_t at = translation.cpp.find(symbol); at != std::string::npos;
+         at = translation.cpp.find(symbol, at + 1))
+      CHECK(translation.cpp.compare(at + std::string(symbol).size(), options.identifier.size(), options.identifier) ==
+            0);
+}
 
 TEST_CASE("names are listed as they are declared, whatever stands in comments and functions") {
   CHECK(declared_names("// in vec3 no;\nuniform float a, b; /* out x */\nfloat f() { return 1.0; }\nflat in\nint c;") ==

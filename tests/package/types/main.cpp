@@ -21,6 +21,9 @@
 float clamped_elsewhere(float x);
 float sum_elsewhere();
 std::size_t length_elsewhere(const char* text);
+// tone.cpp
+float warm_tone(float x);
+float cold_tone(float x);
 
 namespace {
 
@@ -201,6 +204,8 @@ int main() {
   check_initial_values();
   check_names();
   expect_equal("clamped in another unit", clamped_elsewhere(7), 1);
+  expect_equal("tone in a library", warm_tone(3), 4);
+  expect_equal("tone in another library", cold_tone(3), 300);
   expect_equal("<string.h> beside a shader's string.h", length_elsewhere("four"), 4);
   expect_equal("bits", bits_only::shade({}, {.word = std::bit_cast<std::uint32_t>(1.5f)}).value, 1.5);
   return failures;

@@ -1,0 +1,9 @@
+#version 450
+in float x;
+in vec4 tint;
+out vec4 tinted;
+out float y;
+void main() {
+  tinted = x * tint;
+  y = x * 100.0;
+}

@@ -19,12 +19,13 @@ struct ShaderSource {
   std::vector<std::string> files;  // as they appear in messages; files[0] is the main file
   int version = 450;               // of the author's #version line, 450 where there is none
   bool es = false;
-  ShaderStage stage = ShaderStage::fragment;  // compute where the name of the main file ends in .comp
+  ShaderStage stage = ShaderStage::fragment;  // by the main file's name: compute where it ends in .comp
 };
 
 // Searches, in order: the folder of the including file, then `include_folders`, then the built-in shaders (embedded in the
 // binary, addressed as "exact/dot.glsl", "basis/sh.glsl" ...). Include once per file: a second #include of the same file is empty.
 // UserError "file:line: cannot include "x": not found in ..." ; include loops are impossible by construction.
+// UserError where the file's name ends like those of other stages (.vert, .geom ...).
 ShaderSource load_shader(const std::string& path, const std::vector<std::string>& include_folders = {});
 // UserError where an include folder that someone names ("builtin:...": of the shaders in the program) does not exist.
 void require_include_folder(const std::string& folder);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <map>
 #include <optional>
 
 #include "base/error.h"
@@ -82,9 +83,27 @@ void unite_with_builtin(File& file) {
   if (builtin && unix_lines(std::string(*builtin)) == file.text) file.identity = "builtin:" + name;
 }
 
+// By the file's name, whose endings are those of glslang and others in use, alone or before .glsl. Another stage's
+// shader would mostly pass for a fragment shader and give numbers that mean nothing.
+ShaderStage stage_of(const std::string& path) {
+  static const std::map<std::string, const char*> others = {
+      {".vert", "vertex"},       {".vs", "vertex"},        {".vsh", "vertex"},        {".geom", "geometry"},
+      {".gs", "geometry"},       {".gsh", "geometry"},     {".tesc", "tessellation"}, {".tese", "tessellation"},
+      {".tcs", "tessellation"},  {".tes", "tessellation"}, {".mesh", "mesh"},         {".task", "task"},
+      {".rgen", "ray tracing"},  {".rint", "ray tracing"}, {".rahit", "ray tracing"}, {".rchit", "ray tracing"},
+      {".rmiss", "ray tracing"}, {".rcall", "ray tracing"}};
+  std::string ending = fs::path(path).extension().string();
+  if (ending == ".glsl") ending = fs::path(path).stem().extension().string();
+  if (const auto other = others.find(ending); other != others.end())
+    throw UserError(path + ": " + ending + " is the ending of a " + other->second +
+                    " shader, a stage that is not supported: name fragment shaders .frag, compute shaders .comp");
+  return ending == ".comp" ? ShaderStage::compute : ShaderStage::fragment;
+}
+
 class Resolver {
  public:
-  explicit Resolver(const std::vector<std::string>& include_folders) : include_folders_(include_folders) {}
+  Resolver(ShaderStage stage, const std::vector<std::string>& include_folders)
+      : include_folders_(include_folders), stage_(stage) {}
 
   void resolve(File file) {
     unite_with_builtin(file);
@@ -122,7 +141,7 @@ class Resolver {
     source.files = files_;
     source.version = version_;
     source.es = es_;
-    if (fs::path(files_.front()).extension() == ".comp") source.stage = ShaderStage::compute;
+    source.stage = stage_;
     return source;
   }
 
@@ -239,6 +258,7 @@ class Resolver {
   }
 
   const std::vector<std::string>& include_folders_;
+  const ShaderStage stage_;
   std::vector<std::string> identities_, files_;
   std::string version_line_, prologue_, body_;
   int version_ = 450, depth_ = 0, conditional_depth_ = 0, questions_ = 0;
@@ -259,7 +279,7 @@ ShaderSource resolve_shader(const std::string& name, const std::string& main_tex
     file.builtin = true;
     file.folder = fs::path(main_path.substr(8)).parent_path().string();
   }
-  Resolver resolver(include_folders);
+  Resolver resolver(stage_of(main_path), include_folders);
   resolver.resolve(std::move(file));
   return resolver.finish(name);
 }

@@ -184,6 +184,22 @@ TEST_CASE("what cannot be included is named with file, line and places") {
   CHECK(error_of([] { load_shader("/nonexistent.frag"); }).find("/nonexistent.frag") != std::string::npos);
 }
 
+TEST_CASE("a file named like a shader of another stage is refused, not taken for a fragment shader") {
+  for (const std::string name :
+       {"s.vert", "s.vs", "s.vsh", "s.geom", "s.tesc", "s.tese", "s.mesh", "s.task", "s.rgen", "a/s.vert.glsl"}) {
+    const std::string refused = error_of([&] { resolve_shader("s", "#include \"lost.glsl\"\n", name); });
+    CHECK_MESSAGE(refused.rfind(name + ": .", 0) == 0, refused);
+    CHECK_MESSAGE(refused.find(" .frag") != std::string::npos, refused);
+  }
+  CHECK(error_of([] { resolve_shader("s", "", "s.vert"); }) ==
+        "s.vert: .vert is the ending of a vertex shader, a stage that is not supported: name fragment shaders .frag, "
+        "compute shaders .comp");
+  for (const char* name : {"s", "s.frag", "s.fs", "s.glsl", "s.vert.frag", "s.frag.glsl", "of.vert/s.frag"})
+    CHECK_MESSAGE(resolve_shader("s", "", name).stage == ShaderStage::fragment, name);
+  CHECK(resolve_shader("s", "", "s.comp").stage == ShaderStage::compute);
+  CHECK(resolve_shader("s", "", "s.comp.glsl").stage == ShaderStage::compute);
+}
+
 TEST_CASE("a file that includes itself is included once") {
   Folder folder;
   const std::string main =

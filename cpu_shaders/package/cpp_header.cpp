@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/error.h"
 #include "base/hash.h"
 #include "cpu_shaders/package/declaration_order.h"
 #include "cpu_shaders/package/value_tree.h"
@@ -324,6 +325,10 @@ std::string package_identifier(const std::string& name, const ShaderSource& sour
 
 CppHeader cpp_header(const std::string& name, const Translation& translation, const ShaderSource& source,
                      const std::vector<std::string>& isas) {
+  if (source.stage == ShaderStage::compute)
+    throw UserError(
+        source.files[0] +
+        ": a compute shader (.comp) has no inputs and outputs to make a header of: only fragment shaders do");
   const HeaderWriter writer(name, translation, source, isas);
   return {writer.header(), writer.calls()};
 }

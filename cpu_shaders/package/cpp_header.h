@@ -22,7 +22,8 @@ std::string package_identifier(const std::string& name, const ShaderSource& sour
                                const std::vector<std::string>& isas);
 
 // translation: with package_identifier(). source: what was translated; members come in the order of its declarations.
-// isas: names of the instruction sets that the translation is compiled for, "baseline" among them.
+// isas: names of the instruction sets that the translation is compiled for, "baseline" among them. UserError for a
+// compute shader: its work groups are not calls with inputs and outputs.
 CppHeader cpp_header(const std::string& name, const Translation& translation, const ShaderSource& source,
                      const std::vector<std::string>& isas);
 

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "base/error.h"
 #include "cpu_shaders/package/declaration_order.h"
 #include "cpu_shaders/package/value_tree.h"
 
@@ -45,6 +46,18 @@ TEST_CASE("shaders of one name that differ have no symbol in common, the same sh
          at = translation.cpp.find(symbol, at + 1))
       CHECK(translation.cpp.compare(at + std::string(symbol).size(), options.identifier.size(), options.identifier) ==
             0);
+}
+
+TEST_CASE("a compute shader gets no header, which would have neither inputs nor outputs") {
+  const ShaderSource source = resolve_shader(
+      "k", "layout(local_size_x = 8) in;\nbuffer B { float d[]; };\nvoid main() { d[0] = 1.0; }\n", "k.comp");
+  std::string refused;
+  try {
+    cpp_header("k", translate(source), source, {"baseline"});
+  } catch (const UserError& error) {
+    refused = error.what();
+  }
+  CHECK_MESSAGE(refused.rfind("k.comp: a compute shader", 0) == 0, refused);
 }
 
 TEST_CASE("names are listed as they are declared, whatever stands in comments and functions") {

@@ -2,7 +2,8 @@
 #
 # Translates a fragment shader and compiles it into TARGET, an executable or library of this folder's CMakeLists.txt, whose sources can
 # then include "name.h": structs of the shader's uniforms, inputs and outputs, and calls, in namespace `name`.
-#   NAME     a C++ identifier, no function of C and none that TARGET has; else the file's name without folder and ending
+#   NAME     a C++ identifier that begins with a letter, no function or macro of C and none that TARGET has; else the file's name
+#            without folder and ending
 #   INCLUDE  where the shader's #includes are looked for, after its own folder
 #   ISAS     of baseline, avx2 and avx512: what to compile for; else all. The best that the processor has is chosen at run time.
 # Translated shaders are compiled without contraction and without fast-math, whatever the project's own flags say: their results
@@ -31,7 +32,8 @@ function(twinshade_add_shader target)
     get_filename_component(S_NAME ${file} NAME_WE)
   endif()
   if(NOT S_NAME MATCHES "^[A-Za-z][A-Za-z0-9_]*$")
-    message(FATAL_ERROR "twinshade_add_shader: ${S_NAME} is no C++ identifier; give a NAME")
+    message(FATAL_ERROR "twinshade_add_shader: ${S_NAME} must begin with a letter and have letters, digits and "
+      "underscores only; give another NAME")
   endif()
   if(S_NAME STREQUAL "limits")  # g++'s <limits.h> includes the next one by quotes
     message(FATAL_ERROR "twinshade_add_shader: limits.h would stand in for the system's; give ${S_FILE} another NAME")

@@ -1,5 +1,6 @@
 #include "cpu_shaders/package/reserved_names.h"
 
+#include <algorithm>
 #include <set>
 #include <sstream>
 
@@ -75,11 +76,28 @@ std::set<std::string> words_of(const std::string& text) {
   return words;
 }
 
+bool is_macro(const std::string& name) {
+  static const std::set<std::string> macros = words_of(kMacros);
+  return macros.count(name) != 0;
+}
+
 }  // namespace
 
 bool is_reserved_name(const std::string& name) {
-  static const std::set<std::string> reserved = words_of(std::string(kOurs) + " " + kMacros);
-  return spirv::is_cpp_keyword(name) || reserved.count(name) != 0;
+  static const std::set<std::string> ours = words_of(kOurs);
+  return spirv::is_cpp_keyword(name) || is_macro(name) || ours.count(name) != 0;
+}
+
+std::string header_name_refusal(const std::string& name) {
+  const auto is_letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); };
+  const auto is_other = [](char c) { return (c >= '0' && c <= '9') || c == '_'; };
+  if (name.empty() || !is_letter(name[0]) ||
+      !std::all_of(name.begin(), name.end(), [&](char c) { return is_letter(c) || is_other(c); }))
+    return "it must begin with a letter and have letters, digits and underscores only";
+  if (spirv::is_cpp_keyword(name)) return "it is a word of C++";
+  if (is_macro(name)) return "it is a macro of C";
+  if (name == "limits") return "limits.h would stand in for the system's";  // g++'s includes the next one by quotes
+  return "";
 }
 
 }  // namespace twinshade

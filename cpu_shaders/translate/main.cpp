@@ -20,7 +20,7 @@
 #include "base/file.h"
 #include "base/parallel.h"
 #include "cpu_shaders/package/cpp_header.h"
-#include "cpu_shaders/translate/cpp_keywords.h"
+#include "cpu_shaders/package/reserved_names.h"
 #include "cpu_shaders/translate/translate.h"
 #include "lighting/registry.h"
 #include "lighting/sphere_maps.h"
@@ -92,6 +92,9 @@ Job job_of(const std::vector<std::string>& arguments) {
       names.push_back(arguments[k]);
   }
   if (names.size() != 1 || job.output.empty()) throw UserError(kUsage);
+  const std::string& identifier = job.options.identifier;
+  if (!identifier.empty() && identifier != identifier_from(identifier))
+    throw UserError("--name " + identifier + ": no C++ identifier; " + identifier_from(identifier) + " would be one");
   for (const std::string& folder : folders) require_include_folder(folder);
   job.source = load_shader(names[0], folders);
   return job;
@@ -136,8 +139,9 @@ bool has_content(const std::string& path, const std::string& content) {
 // The shader with its header; returns what `translate` does.
 Translation write_typed_cpp(const Job& job) {
   const std::string name = job.options.identifier.empty() ? identifier_from(job.source.name) : job.options.identifier;
-  if (spirv::is_cpp_keyword(name))
-    throw UserError(job.source.files[0] + ": " + name + " cannot be a C++ namespace; give a NAME");
+  if (const std::string refusal = header_name_refusal(name); !refusal.empty())
+    throw UserError(job.source.files[0] + ": " + name + " cannot name a header and its namespace: " + refusal +
+                    "; give another NAME (--name)");
   TranslateOptions options = job.options;
   options.identifier = package_identifier(name, job.source, job.isas);
   Translation translation = translate(job.source, options);

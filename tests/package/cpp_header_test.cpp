@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "cpu_shaders/package/declaration_order.h"
+#include "cpu_shaders/package/reserved_names.h"
 #include "cpu_shaders/package/value_tree.h"
 
 using namespace twinshade;
@@ -58,6 +59,15 @@ TEST_CASE("a compute shader gets no header, which would have neither inputs nor 
     refused = error.what();
   }
   CHECK_MESSAGE(refused.rfind("k.comp: a compute shader", 0) == 0, refused);
+}
+
+TEST_CASE("names that no header and namespace can have are refused") {
+  for (const char* name :
+       {"errno", "EOF", "linux", "assert", "NULL", "main", "class", "std", "limits", "s::t", "_x", "2d", "a-b", ""})
+    CHECK_MESSAGE(!header_name_refusal(name).empty(), name);
+  for (const char* name : {"sunlight", "s2", "a_b", "string", "Uniforms", "Real", "Errno"})
+    CHECK_MESSAGE(header_name_refusal(name).empty(), name);
+  CHECK(header_name_refusal("_x").find("begin with a letter") != std::string::npos);
 }
 
 TEST_CASE("names are listed as they are declared, whatever stands in comments and functions") {

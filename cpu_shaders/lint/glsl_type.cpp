@@ -47,6 +47,21 @@ GlslType widest(const std::vector<GlslType>& arguments) {
   return type;
 }
 
+// sampler2D, iimageCube, atomic_uint ...; image_size is a name like any other.
+bool is_opaque(std::string_view keyword) {
+  if (keyword == "atomic_uint") return true;
+  const bool of_integers = keyword.starts_with('i') ? !keyword.starts_with("image") : keyword.starts_with('u');
+  std::string_view shape = keyword.substr(of_integers ? 1 : 0);
+  const bool is_sampler = shape.starts_with("sampler");
+  if (!is_sampler && !shape.starts_with("image")) return false;
+  shape.remove_prefix(std::string_view(is_sampler ? "sampler" : "image").size());
+  if (is_sampler && !of_integers && shape.ends_with("Shadow"))
+    return one_of(shape, {"1DShadow", "2DShadow", "CubeShadow", "2DRectShadow", "1DArrayShadow", "2DArrayShadow",
+                          "CubeArrayShadow"});
+  return one_of(shape,
+                {"1D", "2D", "3D", "Cube", "2DRect", "1DArray", "2DArray", "CubeArray", "Buffer", "2DMS", "2DMSArray"});
+}
+
 }  // namespace
 
 GlslType scalar_type(Base base) {
@@ -79,12 +94,7 @@ GlslType keyword_type(std::string_view keyword) {
     type.columns = component_count(shape[0]);
     return type;
   }
-  const std::size_t letter = keyword.find_first_of("si");
-  const std::string_view opaque =
-      one_of(keyword.substr(0, 1), {"i", "u"}) && letter != std::string_view::npos && !keyword.starts_with("image")
-          ? keyword.substr(1)
-          : keyword;
-  if (opaque.starts_with("sampler") || opaque.starts_with("image") || keyword == "atomic_uint") {
+  if (is_opaque(keyword)) {
     GlslType type = scalar_type(Base::opaque);
     type.name = keyword;
     return type;

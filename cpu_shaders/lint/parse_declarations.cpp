@@ -92,11 +92,11 @@ Variable* Parser::find_variable(const std::string& name) {
   return nullptr;
 }
 
+// Types of newer versions are names in older ones.
 bool Parser::is_type(const Token& token) {
   if (token.kind != Token::Kind::name) return false;
-  if (keyword_type(token.text).base != Base::unknown) return true;
-  const Variable* named = find_variable(token.text);
-  return named != nullptr && named->is_structure;
+  if (const Variable* named = find_variable(token.text)) return named->is_structure;
+  return keyword_type(token.text).base != Base::unknown && functions_.count(token.text) == 0;
 }
 
 // Twice: a loop, or a function that is called, reaches a line with what later lines store.

@@ -262,6 +262,23 @@ TEST_CASE("blocks, structures, arrays and overloads are followed") {
                                 before))) == "precise");
 }
 
+TEST_CASE("names that begin like those of samplers and images are names, and a function is one before a type is") {
+  const std::string before =
+      "uniform vec2 image_size; uniform sampler2D image, isampler0; uniform uimage2D uimages;\n"
+      "float image_at(float x) { return x; } float sampler_weight(float x) { return x; }\n";
+  CHECK(rules_of(lint(shader_of("precise float x = a.x / image_size.x, iSample = a.y;\n"
+                                "vec2 images[2]; images[0] = a.xy; images[0].x = iSample; color = vec4(x);\n"
+                                "color = texelFetch(image, ivec2(k), 0) + texelFetch(isampler0, ivec2(k), 0);",
+                                before))) == "precise");
+  for (const char* call : {"image_at", "sampler_weight"})
+    CHECK(rules_of(lint(shader_of("float x = " + std::string(call) + "(a.x) * b.x;", before))) == "precise");
+  // in GLSL 1.10, which has no mat2x3
+  CHECK(rules_of(lint(resolve_shader("old",
+                                     "#version 110\nuniform float a; float mat2x3(float x) { return x; }\n"
+                                     "void main() { float uvec2 = a; uvec2 = mat2x3(a) * uvec2; }\n",
+                                     "old.frag"))) == "precise");
+}
+
 TEST_CASE("an overload is found as GLSL's implicit conversions find it") {
   // Only a call that writes its last argument breaks a rule: it stores through a variable index.
   const auto rules = [](const std::string& overloads, const std::string& call) {

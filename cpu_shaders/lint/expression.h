@@ -52,6 +52,7 @@ struct Expression {
   double limit = kUnlimited;    // never NaN, nor farther from zero than this: of constants and integers by + - *
   std::optional<long> integer;  // value, where it is a plain integer constant
   bool precise = false;         // assign and declaration: the target is `precise`; lvalues: their variable is
+  bool has_effect = false;      // assign, call, or a built-in function that writes an argument or memory
   std::vector<bool> written;    // call: arguments that are out or inout
   bool converts = false;        // call: some argument's type is not its parameter's
   std::optional<std::size_t> const_token;  // declaration: its `const`
@@ -66,8 +67,7 @@ inline bool any_of_tree(const Expression& e, bool (*is)(const Expression&)) {
 
 // Can be written twice: evaluating it once more changes nothing.
 inline bool is_repeatable(const Expression& e) {
-  using Kind = Expression::Kind;
-  return !any_of_tree(e, [](const Expression& node) { return node.kind == Kind::assign || node.kind == Kind::call; });
+  return !any_of_tree(e, [](const Expression& node) { return node.has_effect; });
 }
 
 }  // namespace twinshade::lint_detail

@@ -150,6 +150,7 @@ ExpressionPtr Parser::assign(std::size_t op, std::size_t first, ExpressionPtr ta
   ExpressionPtr made = make(Kind::assign, op);
   made->type = target->type;
   made->precise = target->precise;
+  made->has_effect = true;
   stored(*target, tokens_[op].text == "=" ? value.get() : nullptr);
   made->operands.push_back(std::move(target));
   if (value) made->operands.push_back(std::move(value));
@@ -355,6 +356,7 @@ ExpressionPtr Parser::invocation(std::size_t name, GlslType constructed) {
   } else if (const auto functions = find_functions(*made); !functions.empty()) {
     made->kind = Kind::call;
     made->type = functions[0]->result;
+    made->has_effect = true;
     made->written.resize(made->operands.size());
     for (const Function* function : functions) {
       for (std::size_t i = 0; i < made->operands.size(); ++i)
@@ -366,6 +368,7 @@ ExpressionPtr Parser::invocation(std::size_t name, GlslType constructed) {
     made->constant = false;
   } else {
     made->type = builtin_result(*made);
+    made->has_effect = first_written(*made) < made->operands.size() || made->text.starts_with("imageAtomic");
     for (std::size_t i = first_written(*made); i < made->operands.size(); ++i) stored(*made->operands[i], nullptr);
   }
   return spanning(std::move(made), name);

@@ -199,6 +199,20 @@ std::string ExactFunctions::assignment(std::string_view op, const GlslType& targ
   return name;
 }
 
+std::string ExactFunctions::component_assignment(const std::string& op, const GlslType& vector, bool postfix) {
+  const bool computes = op != "=";
+  const std::string name =
+      with_component() + (computes ? "_" + std::string(operator_name(op)) : "") + (postfix ? "_behind" : "_to");
+  std::string body;
+  if (computes) {
+    const GlslType component = element_type(vector);
+    body = "float old = target[i]; value = " + arithmetic(op, component, component) + "(old, value); ";
+  }
+  generated_.insert("float " + name + "(inout " + type_text(vector) + " target, int i, float value) { " + body +
+                    "target = exact_with(target, i, value); return " + (postfix ? "old" : "value") + "; }");
+  return name;
+}
+
 std::string ExactFunctions::with_component() {
   files_.insert("operators");
   return "exact_with";

@@ -26,6 +26,8 @@ class ExactFunctions {
   std::string arithmetic(std::string_view op, const GlslType& left, const GlslType& right);
   // x op= y as a call whose first argument is inout, where x may not be written twice. postfix: gives the old value.
   std::string assignment(std::string_view op, const GlslType& target, const GlslType& value, bool postfix);
+  // The same of v[i] with v, i and x as arguments, "=" too.
+  std::string component_assignment(const std::string& op, const GlslType& vector, bool postfix);
   std::string with_component();                  // v, index, value: v with one component replaced
   std::string diagonal(const GlslType& matrix);  // a matrix of one scalar, and zero
   std::string unseen(const GlslType& type);      // value, zero: the value, unknown to compilers

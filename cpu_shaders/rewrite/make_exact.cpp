@@ -306,25 +306,29 @@ class MakeExact : public Listener {
     if (e.text != "=" && (!is_arithmetic(e.text.substr(0, 1)) || type_text(value_type).empty())) return true;
 
     const bool postfix = steps && e.at != e.first && place.used;
-    if (postfix || (e.text != "=" && !is_repeatable(target))) {
+    // Else the value might change what the target is, or what it holds, between the places where it is written.
+    const bool repeats = is_repeatable(target) && (steps || is_repeatable(*e.operands[1]));
+    const bool component = scope_ == ExactScope::everything && target.kind == Kind::index &&
+                           target.operands[0]->type.is_vector() && !target.operands[1]->constant;
+    if (component) {
+      const std::string vector = text(*target.operands[0]), index = "int(" + text(*target.operands[1]) + ")";
+      if (place.used || !repeats) {
+        edits_.collapse(e.first, e.last,
+                        functions_.component_assignment(e.text, target.operands[0]->type, postfix) + "(" + vector +
+                            ", " + index + ", " + value + ")");
+        return true;
+      }
+      if (e.text != "=")
+        value = functions_.arithmetic(e.text, e.type, value_type) + "(" + text(target) + ", " + value + ")";
+      edits_.collapse(e.first, e.last,
+                      vector + " = " + functions_.with_component() + "(" + vector + ", " + index + ", " + value + ")");
+    } else if (e.text != "=" && (postfix || !repeats)) {
       edits_.collapse(
           e.first, e.last,
           functions_.assignment(e.text, e.type, value_type, postfix) + "(" + text(target) + ", " + value + ")");
-      return true;
-    }
-    if (e.text != "=")
-      value = functions_.arithmetic(e.text, e.type, value_type) + "(" + text(target) + ", " + value + ")";
-    const bool component = scope_ == ExactScope::everything && target.kind == Kind::index &&
-                           target.operands[0]->type.is_vector() && !target.operands[1]->constant &&
-                           is_repeatable(target);
-    if (component) {
-      const std::string vector = text(*target.operands[0]), index = text(*target.operands[1]);
-      const std::string store =
-          vector + " = " + functions_.with_component() + "(" + vector + ", int(" + index + "), " + value + ")";
-      // as a value, the assignment is the component
-      edits_.collapse(e.first, e.last, place.used ? "(" + store + ")[" + index + "]" : store);
     } else if (e.text != "=") {
-      const std::string store = text(target) + " = " + value;
+      const std::string store = text(target) + " = " + functions_.arithmetic(e.text, e.type, value_type) + "(" +
+                                text(target) + ", " + value + ")";
       edits_.collapse(e.first, e.last, place.used ? "(" + store + ")" : store);
     }
     return true;

@@ -68,7 +68,21 @@ TEST_CASE("assignments that compute write their target once") {
   CHECK(body_of("float x[3]; int i = 0; x[i++] /= a.x;") == "floatx[3];inti=0;exact_divide_to(x[i++],a.x);");
   CHECK(body_of("vec3 v = a; v[k] = a.x * b.x;") == "vec3v=a;v=exact_with(v,int(k),exact_multiply(a.x,b.x));");
   CHECK(body_of("vec3 v = a; v[k] -= b.x;") == "vec3v=a;v=exact_with(v,int(k),exact_subtract(v[k],b.x));");
+  CHECK(body_of("vec3 v = a; float y = (v[k] = b.x); y = v[k]++; v[k] *= 2;") ==
+        "vec3v=a;floaty=(exact_with_to(v,int(k),b.x));y=exact_with_add_behind(v,int(k),1.0);"
+        "v=exact_with(v,int(k),exact_multiply(v[k],float(2)));");
   CHECK(body_of("vec3 v = a; v *= m;") == "vec3v=a;v=exact_multiply(v,m);");
+}
+
+TEST_CASE("what a stored value changes of its target's index or old value is read once") {
+  CHECK(body_of("vec3 v = a; int i = k; float y = (v[i] = b[i++]); v[i] = b[i++];") ==
+        "vec3v=a;inti=k;floaty=(exact_with_to(v,int(i),b[i++]));exact_with_to(v,int(i),b[i++]);");
+  CHECK(body_of("vec3 v = a; int i = k; v[i++] = b.x; v[i++] += b.x; v[k] -= twice(b.x);") ==
+        "vec3v=a;inti=k;exact_with_to(v,int(i++),b.x);exact_with_add_to(v,int(i++),b.x);"
+        "exact_with_subtract_to(v,int(k),twice(b.x));");
+  CHECK(body_of("float x = a.x; x += twice(b.x); x *= (x = b.x);") ==
+        "floatx=a.x;exact_add_to(x,twice(b.x));exact_multiply_to(x,(x=b.x));");
+  CHECK(left_of("vec3 v = a; int i = k; color.x = (v[i++] += twice(v[i]++)); color.yzw = v;") == "");
 }
 
 TEST_CASE("constants are computed where both machines compute alike, and literals mean one float") {

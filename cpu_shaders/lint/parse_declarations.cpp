@@ -86,6 +86,17 @@ void Parser::skip_balanced() {
   } while (depth > 0);
 }
 
+// precision highp float;
+void Parser::skip_precision() {
+  for (int words = 0; words < 3; ++words) take();
+  expect(";");
+}
+
+// [[unroll]] before a statement (GL_EXT_control_flow_attributes)
+void Parser::skip_attributes() {
+  while (is("[") && is("[", 1)) skip_balanced();
+}
+
 Variable* Parser::find_variable(const std::string& name) {
   for (auto scope = scopes_.rbegin(); scope != scopes_.rend(); ++scope)
     if (const auto found = scope->find(name); found != scope->end()) return &found->second;
@@ -210,10 +221,7 @@ void Parser::redeclare_precise() {
 
 void Parser::external_declaration() {
   if (accept(";")) return;
-  if (is("precision")) {
-    while (!accept(";")) take();
-    return;
-  }
+  if (is("precision")) return skip_precision();
   const Declarator declarator = qualifiers_and_type();
   if (accept(";")) return;
   if (declarator.type.base == Base::unknown && declarator.has_qualifier) {
@@ -263,7 +271,7 @@ void Parser::function(const Declarator& declarator, const std::string& name) {
       function.read.push_back(parameter.is_input);
       function.written.push_back(parameter.is_output);
     }
-    accept(",");
+    if (!accept(",") && !is(")")) lost();
   }
   functions_.emplace(name, function);
   if (!accept(";")) {
@@ -338,6 +346,7 @@ void Parser::tested(Role role) {
 }
 
 void Parser::statement() {
+  skip_attributes();
   const std::size_t first = at_;
   if (is("{")) return block();
   if (accept(";")) return;
@@ -373,7 +382,7 @@ void Parser::statement() {
   } else if (accept("break") || accept("continue") || accept("discard")) {
     expect(";");
   } else if (is("precision")) {
-    while (!accept(";")) take();
+    skip_precision();
   } else if (at_declaration()) {
     const Declarator declarator = qualifiers_and_type();
     if (declarator.type.base == Base::unknown)

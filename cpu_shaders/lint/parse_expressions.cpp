@@ -296,7 +296,7 @@ ExpressionPtr Parser::initializer(const GlslType& type) {
   take();
   while (!accept("}")) {
     list->operands.push_back(initializer(element_type(type)));
-    accept(",");
+    if (!accept(",") && !is("}")) lost();
   }
   list->type = type;
   list->constant = all_constant(list->operands);
@@ -309,7 +309,7 @@ std::vector<ExpressionPtr> Parser::arguments() {
   if (is("void") && is(")", 1)) take();
   while (!accept(")")) {
     list.push_back(assignment());
-    accept(",");
+    if (!accept(",") && !is(")")) lost();
   }
   return list;
 }

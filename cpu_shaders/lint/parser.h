@@ -82,6 +82,8 @@ class Parser {
   void expect(std::string_view text);
   Token take();
   [[noreturn]] void lost() const;
+  void skip_precision();
+  void skip_attributes();
   void skip_balanced();  // from an opening bracket to behind its closing one
 
   // declarations

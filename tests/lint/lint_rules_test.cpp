@@ -318,6 +318,24 @@ TEST_CASE("what a function stores in a global variable may be NaN where another 
   CHECK(rules_of(lint(shader_of("keep(); color.x = least(a.y);", keeps + least))) == "");
 }
 
+TEST_CASE("a function header that the parser does not know is refused") {
+  CHECK_THROWS_AS(lint(resolve_shader("spirv",
+                                      "#version 450\n#extension GL_EXT_spirv_intrinsics : enable\n"
+                                      "spirv_instruction(id = 81) float first(vec4 v);\n"
+                                      "in vec4 a; out vec4 c;\nvoid main() { c = a; }\n",
+                                      "spirv.frag")),
+                  UserError);
+}
+
+TEST_CASE("attributes of statements are passed over") {
+  CHECK(rules_of(lint(resolve_shader(
+            "attributes",
+            "#version 450\n#extension GL_EXT_control_flow_attributes : enable\nin vec4 a; out vec4 c;\nvoid main() {\n"
+            "  c = a; [[unroll, dependency_length(4)]] for (int i = 0; i < 3; ++i) [[branch]] if (a.x > 0.0) c += a;\n"
+            "}\n",
+            "attributes.frag"))) == "precise");
+}
+
 TEST_CASE("the parser keeps its place through everything that GLSL allows") {
   // The last statements break rules: they are found where the parser came this far.
   const std::string text =

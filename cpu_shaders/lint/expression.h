@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cpu_shaders/lint/glsl_type.h"
+#include "cpu_shaders/lint/zeros.h"
 
 namespace twinshade::lint_detail {
 
@@ -47,8 +48,7 @@ struct Expression {
   std::vector<ExpressionPtr> operands;
 
   bool constant = false;  // built of literals and constants alone
-  bool has_zero = false;  // a floating component that is known to be zero
-  bool all_zero = false;
+  Zeros zeros;
   double limit = kUnlimited;    // never NaN, nor farther from zero than this: of constants and integers by + - *
   std::optional<long> integer;  // value, where it is a plain integer constant
   bool precise = false;         // assign and declaration: the target is `precise`; lvalues: their variable is

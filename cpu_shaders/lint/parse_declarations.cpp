@@ -182,6 +182,7 @@ void Parser::members(GlslType owner, bool global) {
       Variable member;
       member.type = declarator.type;
       member.precise = declarator.precise;
+      member.position = static_cast<long>(structures_[owner.name].size());
       array_suffix(member.type);
       structures_[owner.name][name] = member;
       if (global) declare(name, member);
@@ -300,8 +301,7 @@ void Parser::declarators(Declarator declarator) {
     if (accept("=")) {
       ExpressionPtr value = initializer(variable.type);
       variable.constant = declarator.constant && value->constant;
-      variable.has_zero = value->has_zero;
-      variable.all_zero = value->all_zero;
+      variable.zeros = value->zeros;
       variable.limit = declarator.constant ? value->limit : limit_of(name, value->limit);
       if (variable.constant) variable.integer = value->integer;
       declaration->operands.push_back(std::move(value));

@@ -162,12 +162,35 @@ void Parser::stored(const Expression& target, const Expression* value) {
   while (root->kind == Kind::member || root->kind == Kind::index) root = root->operands[0].get();
   Variable* const variable = root->kind == Kind::variable ? find_variable(root->text) : nullptr;
   if (!variable) return;
-  // What it is known to hold from here on; a component store tells nothing of the whole.
-  const bool whole = root == &target && value != nullptr;
-  variable->has_zero = whole && value->has_zero;
-  variable->all_zero = whole && value->all_zero;
+  store_zeros(target, value ? value->zeros : Zeros{});
   double& known = stored_limits_[variable->declared_at];
   known = std::max(known, value ? limit(*value) : kUnlimited);
+}
+
+// What the variable is known to hold from here on.
+void Parser::store_zeros(const Expression& target, const Zeros& value) {
+  if (target.kind == Kind::variable) {
+    if (Variable* variable = find_variable(target.text)) variable->zeros = value;
+    return;
+  }
+  const Expression& object = *target.operands[0];
+  const GlslType& type = object.type;
+  std::size_t count = std::size_t(type.is_matrix() ? type.columns : type.rows);
+  Zeros whole = object.zeros;
+  if (target.kind == Kind::index) {
+    const auto index = target.operands[1]->integer;
+    if (type.array_dimensions > 0) count = std::size_t(index.value_or(0)) + 2;  // and others, of which nothing is known
+    whole = with_part(whole, count, index, value);
+  } else if (const Variable* member = find_member(type, target.text)) {
+    whole = with_part(whole, structures_.at(type.name).size(), member->position, value);
+  } else if (type.base == Base::structure) {
+    whole = {};
+  } else {
+    for (std::size_t i = 0; i < target.text.size(); ++i)
+      whole = with_part(whole, count, component_index(target.text[i]),
+                        target.text.size() == 1 ? value : part_zeros(value, long(i)));
+  }
+  store_zeros(object, whole);
 }
 
 // While the stores of the text are not known, a variable may hold anything.
@@ -222,8 +245,7 @@ ExpressionPtr Parser::unary() {
   ExpressionPtr operand = unary();
   made->type = operand->type;
   made->constant = operand->constant;
-  made->has_zero = operand->has_zero;
-  made->all_zero = operand->all_zero;
+  made->zeros = operand->zeros;
   made->limit = operand->limit;
   if (operand->integer && made->text == "-") made->integer = -*operand->integer;
   if (operand->integer && made->text == "+") made->integer = operand->integer;
@@ -240,12 +262,12 @@ ExpressionPtr Parser::postfix() {
       take();
       made->precise = object->precise;
       made->constant = object->constant;
-      made->has_zero = made->all_zero = object->all_zero;
       made->limit = object->limit;
       made->type = element_type(object->type);
       made->operands.push_back(std::move(object));
       made->operands.push_back(expression());
       made->constant = made->constant && made->operands[1]->constant;
+      made->zeros = part_zeros(made->operands[0]->zeros, made->operands[1]->integer);
       expect("]");
       object = spanning(std::move(made), first);
     } else if (is(".")) {
@@ -261,6 +283,14 @@ ExpressionPtr Parser::postfix() {
   }
 }
 
+const Variable* Parser::find_member(const GlslType& structure, const std::string& name) const {
+  if (structure.base != Base::structure) return nullptr;
+  const auto members = structures_.find(structure.name);
+  if (members == structures_.end()) return nullptr;
+  const auto member = members->second.find(name);
+  return member == members->second.end() ? nullptr : &member->second;
+}
+
 ExpressionPtr Parser::member_access(ExpressionPtr object) {
   const std::size_t first = object->outer_first;
   ExpressionPtr made = make(Kind::member, at_);
@@ -273,17 +303,19 @@ ExpressionPtr Parser::member_access(ExpressionPtr object) {
   }
   made->precise = object->precise;
   if (object->type.base == Base::structure) {
-    const auto members = structures_.find(object->type.name);
-    if (members != structures_.end() && members->second.count(made->text) != 0) {
-      made->type = members->second.at(made->text).type;
-      made->precise = made->precise || members->second.at(made->text).precise;
+    if (const Variable* member = find_member(object->type, made->text)) {
+      made->type = member->type;
+      made->precise = made->precise || member->precise;
+      made->zeros = part_zeros(object->zeros, member->position);
     }
   } else {
     made->type = object->type;
     made->type.rows = static_cast<int>(made->text.size());
+    std::vector<Zeros> components;
+    for (const char letter : made->text) components.push_back(part_zeros(object->zeros, component_index(letter)));
+    made->zeros = components.size() == 1 ? components[0] : composed_zeros(std::move(components));
   }
   made->constant = object->constant;
-  made->has_zero = made->all_zero = object->all_zero;
   made->limit = object->limit;
   made->operands.push_back(std::move(object));
   return spanning(std::move(made), first);
@@ -300,6 +332,9 @@ ExpressionPtr Parser::initializer(const GlslType& type) {
   }
   list->type = type;
   list->constant = all_constant(list->operands);
+  std::vector<Zeros> parts;
+  for (const ExpressionPtr& operand : list->operands) parts.push_back(operand->zeros);
+  list->zeros = composed_zeros(std::move(parts));
   return spanning(std::move(list), first);
 }
 
@@ -343,13 +378,9 @@ ExpressionPtr Parser::invocation(std::size_t name, GlslType constructed) {
   if (constructed.base != Base::unknown) {
     made->kind = Kind::construct;
     made->type = constructed;
-    const auto has_zero = [](const ExpressionPtr& e) { return e->has_zero; };
-    const auto all_zero = [](const ExpressionPtr& e) { return e->all_zero; };
-    made->has_zero = std::any_of(made->operands.begin(), made->operands.end(), has_zero);
-    made->all_zero = !made->operands.empty() && std::all_of(made->operands.begin(), made->operands.end(), all_zero);
-    // a matrix of one scalar is zero off its diagonal
-    if (constructed.is_matrix() && made->operands.size() == 1 && made->operands[0]->type.rows == 1)
-      made->has_zero = true;
+    std::vector<std::pair<GlslType, Zeros>> operands;
+    for (const ExpressionPtr& operand : made->operands) operands.emplace_back(operand->type, operand->zeros);
+    made->zeros = constructed_zeros(constructed, operands);
     made->limit = 0.0;
     for (const ExpressionPtr& operand : made->operands) made->limit = std::max(made->limit, limit(*operand));
     if (constructed.is_integer() && made->operands.size() == 1) made->integer = made->operands[0]->integer;
@@ -390,8 +421,8 @@ ExpressionPtr Parser::primary() {
     literal->type = literal_type(token.text);
     literal->constant = true;
     if (literal->type.is_integer()) literal->integer = static_cast<long>(std::strtoul(token.text.c_str(), nullptr, 0));
-    literal->has_zero = literal->all_zero =
-        literal->integer ? *literal->integer == 0 : std::strtod(token.text.c_str(), nullptr) == 0.0;
+    literal->zeros =
+        scalar_zeros(literal->integer ? *literal->integer == 0 : std::strtod(token.text.c_str(), nullptr) == 0.0);
     literal->limit = finite_or_unlimited(std::strtod(token.text.c_str(), nullptr));
     return spanning(std::move(literal), start);
   }
@@ -411,8 +442,7 @@ ExpressionPtr Parser::primary() {
     variable->type = known->type;
     variable->precise = known->precise;
     variable->constant = known->constant;
-    variable->has_zero = known->has_zero;
-    variable->all_zero = known->all_zero;
+    variable->zeros = known->zeros;
     variable->limit = known->limit;
     variable->integer = known->integer;
   } else if (token.text.rfind("gl_Max", 0) == 0 || token.text.rfind("gl_Min", 0) == 0) {

@@ -16,11 +16,12 @@ struct Variable {
   bool is_structure = false;  // no variable: the name of a structure
   GlslType type;
   bool precise = false;
-  bool constant = false;                    // const, initialised with a constant
-  bool has_zero = false, all_zero = false;  // as last assigned, in the order of the text
-  double limit = kUnlimited;                // Expression::limit, of every value that the text assigns anywhere
-  std::size_t declared_at = 0;              // token
-  std::optional<long> integer;              // of a constant
+  bool constant = false;        // const, initialised with a constant
+  Zeros zeros;                  // as last assigned, in the order of the text
+  double limit = kUnlimited;    // Expression::limit, of every value that the text assigns anywhere
+  std::size_t declared_at = 0;  // token
+  std::optional<long> integer;  // of a constant
+  long position = 0;            // of a member
 };
 
 // What the parser tells of, in the order of the text.
@@ -124,12 +125,14 @@ class Parser {
   ExpressionPtr assign(std::size_t op, std::size_t first, ExpressionPtr target, ExpressionPtr value);
   // value: what the whole target then holds; null where that is not known.
   void stored(const Expression& target, const Expression* value);
+  void store_zeros(const Expression& target, const Zeros& value);
   double limit_of(std::size_t declared_at, double initial) const;
   std::vector<const Function*> find_functions(const Expression& call) const;
 
   // names
   void declare(const std::string& name, const Variable& variable) { scopes_.back()[name] = variable; }
   Variable* find_variable(const std::string& name);
+  const Variable* find_member(const GlslType& structure, const std::string& name) const;
   bool is_type(const Token& token);  // a variable may hide a structure
 
   const TokenList& list_;

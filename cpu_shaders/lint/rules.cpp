@@ -134,7 +134,7 @@ std::string constant_arithmetic(const Expression& e, const Place& place) {
 std::string zero_operand(const Expression& e, const Place&) {
   if (!is_operator(e) || !is_arithmetic(e) || e.constant || e.operands.size() != 2) return "";
   const char op = e.text[0];
-  const bool left = e.operands[0]->has_zero, right = e.operands[1]->has_zero;
+  const bool left = e.operands[0]->zeros.any, right = e.operands[1]->zeros.any;
   return left || (right && op != '/') ? e.text : "";
 }
 

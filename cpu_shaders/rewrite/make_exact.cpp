@@ -39,7 +39,7 @@ GlslType as_float(GlslType type) {
 }
 
 bool is_zero_literal(const Expression& e) {
-  return e.kind == Kind::literal && (e.type.is_integer() || e.type.is_floating()) && e.all_zero;
+  return e.kind == Kind::literal && (e.type.is_integer() || e.type.is_floating()) && e.zeros.all;
 }
 
 // A square matrix of one scalar.

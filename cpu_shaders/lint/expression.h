@@ -65,6 +65,11 @@ inline bool any_of_tree(const Expression& e, bool (*is)(const Expression&)) {
                               [is](const ExpressionPtr& operand) { return any_of_tree(*operand, is); });
 }
 
+// a, b without parentheses around it, which an argument or an initialiser needs.
+inline bool is_bare_sequence(const Expression& e) {
+  return e.kind == Expression::Kind::sequence && e.outer_first == e.first && e.outer_last == e.last;
+}
+
 // Can be written twice: evaluating it once more changes nothing.
 inline bool is_repeatable(const Expression& e) {
   return !any_of_tree(e, [](const Expression& node) { return node.has_effect; });

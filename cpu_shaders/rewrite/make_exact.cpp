@@ -175,6 +175,7 @@ class MakeExact : public Listener {
       case Kind::sequence: {
         for (std::size_t i = 0; i < e.operands.size(); ++i)
           rewrite(*e.operands[i], {Known::nothing, place.used && i + 1 == e.operands.size()});
+        if (is_bare_sequence(e) && place.used) edits_.parenthesize(e.first, e.last);
         return true;
       }
       case Kind::select: {

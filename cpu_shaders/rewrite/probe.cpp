@@ -296,6 +296,7 @@ class Probe : public Listener {
       prefix(values_.back().name, what);
     }
     if (!number(e.outer_first, e.outer_last, what, computes(e))) return;
+    if (is_bare_sequence(e)) edits_.parenthesize(e.first, e.last);
     edits_.before(e.outer_first, kThrough + ("(" + first + ", "));
     edits_.behind(e.outer_last - 1, ")");
   }
@@ -389,6 +390,7 @@ class Probe : public Listener {
   void result(const Expression& returned) {
     if (returned.kind == Kind::variable || returned.constant) return;
     returned_ = {"probe_twin_result", "result of " + function_, returned.type, 0, 0, false, computes(returned)};
+    if (is_bare_sequence(returned)) edits_.parenthesize(returned.first, returned.last);
     returned_value_ = edits_.text(returned.outer_first, returned.outer_last);
   }
 

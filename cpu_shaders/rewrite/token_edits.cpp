@@ -6,6 +6,11 @@ TokenEdits::TokenEdits(const TokenList& list) : list_(list), before_(list.tokens
   for (const Token& token : list.tokens) text_.push_back(token.text);
 }
 
+void TokenEdits::parenthesize(std::size_t first, std::size_t last) {
+  before(first, "(");
+  behind(last - 1, ")");
+}
+
 void TokenEdits::collapse(std::size_t first, std::size_t last, const std::string& text) {
   for (std::size_t i = first; i < last; ++i) {
     before_[i].clear();

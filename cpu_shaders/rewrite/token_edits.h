@@ -17,6 +17,8 @@ class TokenEdits {
   // Later insertions at one place go further out: an expression's operands are edited before it is.
   void before(std::size_t token, const std::string& text) { before_[token].insert(0, text); }
   void behind(std::size_t token, const std::string& text) { behind_[token] += text; }
+  // Tokens [first, last) get parentheses around them.
+  void parenthesize(std::size_t first, std::size_t last);
   void replace(std::size_t token, const std::string& text) { text_[token] = text; }
   // One text in the place of tokens [first, last) and of what was put around them.
   void collapse(std::size_t first, std::size_t last, const std::string& text);

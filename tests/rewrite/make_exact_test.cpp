@@ -85,6 +85,12 @@ TEST_CASE("what a stored value changes of its target's index or old value is rea
   CHECK(left_of("vec3 v = a; int i = k; color.x = (v[i++] += twice(v[i]++)); color.yzw = v;") == "");
 }
 
+TEST_CASE("a, b without parentheses gets them where it becomes an argument") {
+  CHECK(body_of("float g; float x = k > 0 ? g = a.x, 2 : 3.0;").find("?float((g=a.x,2)):") != std::string::npos);
+  CHECK(left_of("color.x = f(); while (g += a.x, g < 4.0) ; vec3 v = a; v[g = 0.0, k] = b.x; color.yzw = v;",
+                "float g; float f() { return g = a.x, 1; }\n") == "");
+}
+
 TEST_CASE("constants are computed where both machines compute alike, and literals mean one float") {
   CHECK(body_of("const float x = 0.1 * 3.0; float y = x;") ==
         "floatx=exact_unseen(exact_multiply(0.100000001,3.0),exact_zero);floaty=x;");

@@ -161,6 +161,19 @@ TEST_CASE("constructed arguments within functions that return a value, and of si
             .source));
 }
 
+TEST_CASE("a, b without parentheses is told as a condition and as a result") {
+  const ShaderSource source = resolve_shader("t",
+                                             "in float a; out float c; float g;\n"
+                                             "float f() {\n  return g = a, sin(g); }\n"
+                                             "void main() { int i = 0;\n"
+                                             "  while (g += cos(a), ++i < 4) ;\n  c = f() + g; }\n",
+                                             "t.frag");
+  const ProbedShader shader = add_probes(source);
+  CHECK_NOTHROW(compile_glsl(shader.source));
+  CHECK(names(shader, 3, "result of f"));
+  CHECK(names(shader, 5, "condition"));
+}
+
 TEST_CASE("returned arrays are told") {
   const ShaderSource source = resolve_shader("t",
                                              "in vec4 a; out vec4 c;\n"

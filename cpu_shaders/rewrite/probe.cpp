@@ -104,10 +104,11 @@ class Probe : public Listener {
     end_ += " }\n";
   }
 
-  void function_begin(const std::string& name, const GlslType&, std::size_t body_first) override {
+  void function_begin(const std::string& name, const GlslType& result, std::size_t body_first) override {
     function_ = name;
     body_first_ = body_first;
     body_last_ = closing(body_first);
+    if (result.base == Base::nothing) discard_by_return();
     std::size_t at = opening(body_first - 1) - 1;  // the name
     const std::size_t behind_result = at--;
     while (list_.tokens[at].text == "]") at = opening(at) - 1;
@@ -205,6 +206,17 @@ class Probe : public Listener {
       depth += one_of(text, {")", "]", "}"}) ? 1 : one_of(text, {"(", "[", "{"}) ? -1 : 0;
       if (depth == 0 || at == 0) return at;
     }
+  }
+
+  // Where a loop may end by discarding alone.
+  void discard_by_return() {
+    const auto begin = list_.tokens.begin();
+    const bool loops =
+        std::any_of(begin + std::ptrdiff_t(body_first_), begin + std::ptrdiff_t(body_last_), [](const Token& token) {
+          return one_of(token.text, {"for", "while"});
+        });
+    for (std::size_t i = body_first_; loops && i < body_last_; ++i)
+      if (list_.tokens[i].text == "discard") edits_.replace(i, "return");
   }
 
   std::string without_spaces(std::size_t first, std::size_t last) const {

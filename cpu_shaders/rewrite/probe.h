@@ -30,7 +30,7 @@ inline constexpr const char* kProbeTarget = "probe_target";
 // The added outputs (uvec4): up to four components by bit pattern; then the ProbedValue + 1 (0: there were fewer
 // values), how many values there are in all, Scalar | components << 2 | third element << 16, first element | second <<
 // 16 (elements of the arrays that stand between the parts of its name). Discarding is left out, so that every row
-// answers.
+// answers; in functions with loops that give no value, it returns.
 inline constexpr const char* kProbeValue = "probe_value";
 inline constexpr const char* kProbePlace = "probe_place";
 

@@ -174,6 +174,20 @@ TEST_CASE("a, b without parentheses is told as a condition and as a result") {
   CHECK(names(shader, 5, "condition"));
 }
 
+TEST_CASE("a loop that ends by discarding ends with probes too") {
+  const ShaderSource source = resolve_shader("t",
+                                             "in float a; out float c;\n"
+                                             "float f() { if (a > 9.0) discard; return a; }\n"
+                                             "void main() { for (float x = f();; x += a) if (x > 2.0) discard; }\n",
+                                             "t.frag");
+  const ProbedShader shader = add_probes(source);
+  CHECK_NOTHROW(compile_glsl(shader.source));
+  CHECK(shader.source.text.find("discard") == std::string::npos);
+  const std::size_t loop = shader.source.text.find("for ( float x");
+  REQUIRE(loop != std::string::npos);
+  CHECK(shader.source.text.find("return ;", loop) != std::string::npos);
+}
+
 TEST_CASE("returned arrays are told") {
   const ShaderSource source = resolve_shader("t",
                                              "in vec4 a; out vec4 c;\n"

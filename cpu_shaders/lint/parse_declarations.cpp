@@ -103,7 +103,11 @@ Variable* Parser::find_variable(const std::string& name) {
   return nullptr;
 }
 
-// Types of newer versions are names in older ones.
+// Keywords of newer versions are names in older ones.
+bool Parser::at_qualifier() {
+  return is_qualifier(peek()) && find_variable(peek().text) == nullptr && functions_.count(peek().text) == 0;
+}
+
 bool Parser::is_type(const Token& token) {
   if (token.kind != Token::Kind::name) return false;
   if (const Variable* named = find_variable(token.text)) return named->is_structure;
@@ -126,7 +130,7 @@ void Parser::read() {
 
 // A type name starts a declaration unless it is a constructor: vec3(...), float[2](...), Light(...).
 bool Parser::at_declaration() {
-  if (is_qualifier(peek()) || is("struct") || is("precision")) return true;
+  if (at_qualifier() || is("struct") || is("precision")) return true;
   if (!is_type(peek())) return false;
   std::size_t ahead = 1;
   while (is("[", ahead)) {
@@ -193,7 +197,7 @@ void Parser::members(GlslType owner, bool global) {
 
 Parser::Declarator Parser::qualifiers_and_type() {
   Declarator declarator;
-  while (is_qualifier(peek())) {
+  while (at_qualifier()) {
     const std::size_t token = at_;
     const std::string qualifier = take().text;
     declarator.has_qualifier = true;

@@ -133,6 +133,7 @@ class Parser {
   void declare(const std::string& name, const Variable& variable) { scopes_.back()[name] = variable; }
   Variable* find_variable(const std::string& name);
   const Variable* find_member(const GlslType& structure, const std::string& name) const;
+  bool at_qualifier();
   bool is_type(const Token& token);  // a variable may hide a structure
 
   const TokenList& list_;

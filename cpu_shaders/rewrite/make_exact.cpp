@@ -12,6 +12,7 @@
 #include "cpu_shaders/lint/parser.h"
 #include "cpu_shaders/rewrite/constants.h"
 #include "cpu_shaders/rewrite/exact_functions.h"
+#include "cpu_shaders/rewrite/new_keywords.h"
 #include "cpu_shaders/rewrite/token_edits.h"
 #include "cpu_shaders/source/find_word.h"
 #include "cpu_shaders/translate/compile_glsl.h"
@@ -61,19 +62,6 @@ class MakeExact : public Listener {
  public:
   MakeExact(const TokenList& list, ExactScope scope)
       : edits_(list), functions_(scope == ExactScope::written_out), list_(list), needed_(list), scope_(scope) {}
-
-  // The result is GLSL 450, which has keywords that are names in older versions.
-  void rename_keywords(const ShaderSource& source) {
-    struct Keyword {
-      const char* name;
-      int version, es_version;
-    };
-    for (std::size_t i = 0; i < list_.tokens.size(); ++i)
-      for (const Keyword& word : {Keyword{"sample", 400, 0}, Keyword{"patch", 400, 0}, Keyword{"subroutine", 400, 0},
-                                  Keyword{"buffer", 430, 310}})
-        if (list_.tokens[i].text == word.name && source.version < (source.es ? word.es_version : word.version))
-          edits_.replace(i, std::string(word.name) + "_name");
-  }
 
   void rename(const std::set<std::string>& names) {
     for (std::size_t i = 0; i < list_.tokens.size(); ++i)
@@ -457,7 +445,7 @@ ExactShader make_exact(const ShaderSource& source, ExactScope scope) {
   ExactShader result;
   const auto rewrite_and_rename = [&](const std::set<std::string>& names) {
     MakeExact rewrite(tokens, scope);
-    rewrite.rename_keywords(source);
+    rewrite.rename(new_keywords(tokens, source));
     rewrite.rename(names);
     Parser(tokens, rewrite).run();
     result.source = source;

@@ -297,6 +297,17 @@ TEST_CASE("names that begin like those of samplers and images are names") {
     CHECK(rules_of(lint(shader_of("float x = " + std::string(call) + "(a.x) * b.x;", before))) == "precise");
 }
 
+TEST_CASE("qualifiers of newer versions are names in older ones") {
+  for (const std::string name : {"sample", "patch", "buffer", "precise", "restrict", "readonly"}) {
+    CAPTURE(name);
+    const std::string text = "#version 330\nin float a; out float " + name + ";\nvoid main() {\n  " + name +
+                             " = a;\n  " + name + " *= 2.0;\n}\n";
+    const std::vector<LintFinding> findings = lint(resolve_shader("old", text, "old.frag"));
+    REQUIRE(findings.size() == 1);
+    CHECK(findings[0].line == 5);
+  }
+}
+
 TEST_CASE("an overload is found as GLSL's implicit conversions find it") {
   // Only a call that writes its last argument breaks a rule: it stores through a variable index.
   const auto rules = [](const std::string& overloads, const std::string& call) {

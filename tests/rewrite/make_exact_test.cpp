@@ -86,7 +86,8 @@ TEST_CASE("what a stored value changes of its target's index or old value is rea
 }
 
 TEST_CASE("a, b without parentheses gets them where it becomes an argument") {
-  CHECK(body_of("float g; float x = k > 0 ? g = a.x, 2 : 3.0;").find("?float((g=a.x,2)):") != std::string::npos);
+  CHECK(body_of("float g; float x = k > 0 ? g = a.x, 2 : 3.0;").find("?exact_unseen(float((g=a.x,2)),exact_zero):") !=
+        std::string::npos);
   CHECK(left_of("color.x = f(); while (g += a.x, g < 4.0) ; vec3 v = a; v[g = 0.0, k] = b.x; color.yzw = v;",
                 "float g; float f() { return g = a.x, 1; }\n") == "");
 }
@@ -296,6 +297,20 @@ TEST_CASE("GLSL ES and older versions are rewritten as GLSL 4.50") {
                      "float buffer = 2.0; void main() { float sample = s; c = a * sample * buffer; }\n",
                      "old.frag");
   CHECK(make_exact(old).left.empty());
+  for (const std::string name : {"sample", "patch", "precise", "coherent", "restrict", "readonly", "writeonly"}) {
+    CAPTURE(name);
+    const ShaderSource named = resolve_shader("named",
+                                              "#version 330\nin vec4 a; out vec4 c;\nvoid main() { vec4 " + name +
+                                                  " = a; " + name + " *= 3; c = " + name + "; }\n",
+                                              "named.frag");
+    CHECK_NOTHROW(CHECK(make_exact(named).left.empty()));
+  }
+  const ShaderSource extended =
+      resolve_shader("extended",
+                     "#version 330\n#extension GL_ARB_gpu_shader5 : enable\n"
+                     "in vec4 a; out vec4 c;\nvoid main() { precise vec4 b = a * a; c = b; }\n",
+                     "extended.frag");
+  CHECK_NOTHROW(CHECK(make_exact(extended).left.empty()));
 }
 
 TEST_CASE("a shader that includes exact functions itself gets each once") {

@@ -91,9 +91,10 @@ bool is_exact_builtin(std::string_view f) {
 }
 
 bool works_on_integers(const Expression& e) {
-  return !e.operands.empty() && std::all_of(e.operands.begin(), e.operands.end(), [](const ExpressionPtr& argument) {
-    return argument->type.is_integer() || argument->type.base == Base::boolean;
-  });
+  return !e.operands.empty() && !e.type.is_floating() &&
+         std::all_of(e.operands.begin(), e.operands.end(), [](const ExpressionPtr& argument) {
+           return argument->type.is_integer() || argument->type.base == Base::boolean;
+         });
 }
 
 // A written-out decimal: digits from the first that is not zero to the end of the significand.

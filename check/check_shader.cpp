@@ -67,6 +67,7 @@ class Check {
       for (InputRange& range : ranges_in_file(side_file)) ranges_.push_back(std::move(range));
     if (options_.make_exact) {
       ExactShader exact = make_exact(source_);
+      for (InputRange& range : ranges_) range.name = path_in(exact, range.name);
       source_ = std::move(exact.source);
       result_.findings = std::move(exact.left);
       uses_zero_ = exact.uses_zero;

@@ -445,8 +445,9 @@ ExactShader make_exact(const ShaderSource& source, ExactScope scope) {
   ExactShader result;
   const auto rewrite_and_rename = [&](const std::set<std::string>& names) {
     MakeExact rewrite(tokens, scope);
-    rewrite.rename(new_keywords(tokens, source));
-    rewrite.rename(names);
+    result.renamed = new_keywords(tokens, source);
+    result.renamed.insert(names.begin(), names.end());
+    rewrite.rename(result.renamed);
     Parser(tokens, rewrite).run();
     result.source = source;
     result.source.version = 450;
@@ -480,6 +481,13 @@ ExactShader make_exact(const ShaderSource& source, ExactScope scope) {
     throw UserError(std::string(error.what()) + " (in the shader as rewritten for exactness)");
   }
   return result;
+}
+
+std::string path_in(const ExactShader& exact, std::string path) {
+  for (const std::string& name : exact.renamed)
+    for (std::size_t at = find_word(path, name); at != path.npos; at = find_word(path, name, at + 1))
+      path.insert(at + name.size(), "_name");
+  return path;
 }
 
 }  // namespace twinshade

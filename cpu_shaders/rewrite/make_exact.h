@@ -3,6 +3,7 @@
 // the same bits on every machine, though not the same function values that some driver has for sin, say.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct ExactShader {
   bool changed = false;           // something was in the scope
   bool uses_zero = false;         // it has the uniform kExactZero
   std::vector<LintFinding> left;  // what is still outside the exact dialect, where the author wrote it
+  std::set<std::string> renamed;  // the author's names that gave way to others: NAME is now NAME_name
 };
 
 enum class ExactScope {
@@ -32,5 +34,8 @@ enum class ExactScope {
 
 // UserError where the shader is not valid GLSL.
 ExactShader make_exact(const ShaderSource& source, ExactScope scope = ExactScope::everything);
+
+// A GLSL path of the author's ("light.power") in the result.
+std::string path_in(const ExactShader& exact, std::string path);
 
 }  // namespace twinshade

@@ -46,6 +46,13 @@ TEST_CASE("the smallest input has gl_FragCoord by its name, and nothing that --m
   CHECK(shader.counterexample->first_line.difference->statement.line == 6);
 }
 
+TEST_CASE("an input keeps its range where its name gives way to one that --make-exact added") {
+  const CheckedShader shader = checked_exact(
+      "// @input exact_add 0..1\nin float exact_add; out float c;\nvoid main() { c = exact_add * 0.5 + 0.25; }\n");
+  CAPTURE(shader.message);
+  CHECK(shader.verdict == Verdict::same_bits);
+}
+
 TEST_CASE("an unknown input is answered with the author's own") {
   const CheckedShader shader = checked_exact("// @input nonsense 0..1\n" + kShader);
   CHECK(shader.verdict == Verdict::refused);

@@ -215,6 +215,8 @@ TEST_CASE("a shader's own names that are those of exact functions are given way 
   CHECK_NOTHROW(compile_glsl(exact.source));
   CHECK(plain_body(exact).find("exact_multiply_name=exact_add_name(a,exact_zero_name);") != std::string::npos);
   CHECK(exact.source.text.find("exact_scale_name") == std::string::npos);  // there is no such function
+  CHECK(path_in(exact, "exact_zero") == "exact_zero_name");
+  CHECK(path_in(exact, "exact_scale[2].exact_add.exact_added") == "exact_scale[2].exact_add_name.exact_added");
   const ShaderSource included = resolve_shader(
       "included", "#include \"exact/dot.glsl\"\nin vec3 a; out float r;\nvoid main() { r = exact_dot(a, a) + 1.0; }\n",
       "included.frag");

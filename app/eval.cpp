@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <iterator>
 #include <memory>
+#include <new>
 #include <utility>
 
 #include "app/eval_report.h"
@@ -124,7 +125,9 @@ struct EvalVerb {
   void guarded(EvaluatedCase& c, bool many, const Output& output, Action action) const {
     try {
       action();
-    } catch (const UserError& error) {
+    } catch (const std::bad_alloc&) {  // the others would not have memory either
+      throw;
+    } catch (const std::exception& error) {  // a UserError, or our own mistake
       c.error = error.what();
       c.backends.clear();
       if (many) return;

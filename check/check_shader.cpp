@@ -5,6 +5,7 @@
 #include <chrono>
 #include <deque>
 #include <filesystem>
+#include <new>
 
 #include "base/error.h"
 #include "check/shrink.h"
@@ -51,6 +52,11 @@ class Check {
     } catch (const BackendError& error) {  // of the machine that the others are compared with
       result_.verdict = Verdict::not_run;
       result_.message = error.what();
+    } catch (const std::bad_alloc&) {  // the others would not have memory either
+      throw;
+    } catch (const std::exception& error) {  // our own mistake: the others are checked all the same
+      result_.verdict = Verdict::not_run;
+      result_.message = result_.path + ": " + error.what();
     }
     return false;
   }

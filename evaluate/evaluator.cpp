@@ -85,9 +85,12 @@ struct Evaluator::State {
     for (Values& values : result.outputs) {
       const std::uint32_t components = values.type.components();
       for (std::uint32_t c = 0; c < components; ++c) {
-        const std::size_t plane = plane_of.at(component_name(values.name, values.type, c));
+        const std::string name = component_name(values.name, values.type, c);
+        const auto plane = plane_of.find(name);
+        if (plane == plane_of.end())
+          throw BackendError(std::string(backend_name(target.backend)) + ": there are no results for output " + name);
         for (std::size_t i = 0; i < group.rows.size(); ++i)
-          values.bits[group.rows[i] * components + c] = rows.bits[plane + i];
+          values.bits[group.rows[i] * components + c] = rows.bits[plane->second + i];
       }
     }
     for (std::size_t i = 0; i < group.rows.size(); ++i) result.kept[group.rows[i]] = rows.kept[i];

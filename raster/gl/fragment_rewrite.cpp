@@ -50,6 +50,7 @@ class Rewriter {
 
   FragmentShader run() {
     result_.extensions = text_.extensions;
+    refuse_own_names();
     rename_new_keywords();
     scan_words();
     bool has_main = false;
@@ -87,6 +88,12 @@ class Rewriter {
                        [&](std::size_t t) { return tokens_[t].text == qualifier; });
   }
 
+  void refuse_own_names() const {
+    for (std::size_t i = 0; i < tokens_.size(); ++i)
+      if (tokens_[i].kind == TokenKind::word && tokens_[i].text.rfind(kPrefix, 0) == 0)
+        fail(i, "names that begin with " + std::string(kPrefix) + " are reserved: rename " + tokens_[i].text);
+  }
+
   // Words that became keywords after the shader's version but that its author may use as names.
   void rename_new_keywords() {
     std::set<std::string> keywords;
@@ -95,7 +102,7 @@ class Rewriter {
     if (source_.es) keywords.insert({"precise"});
     if (!text_.extensions.empty()) return;  // then they may be keywords all the same
     for (Token& token : tokens_)
-      if (keywords.count(token.text) != 0) token.text = kPrefix + std::string("name_") + token.text;
+      if (keywords.count(token.text) != 0) token.text = kNamePrefix + token.text;
   }
 
   void scan_words() {
@@ -103,8 +110,6 @@ class Rewriter {
       const std::string& text = tokens_[i].text;
       if (tokens_[i].kind != TokenKind::word) continue;
       ++count_[text];
-      if (text.rfind(kPrefix, 0) == 0 && text.rfind(kPrefix + std::string("name_"), 0) != 0)
-        fail(i, "names that begin with " + std::string(kPrefix) + " are reserved: rename " + text);
       result_.discards |= text == "discard";
       result_.has_storage |= text == "buffer";
       result_.writes_depth |= text == "gl_FragDepth";
@@ -365,6 +370,12 @@ class Rewriter {
 };
 
 }  // namespace
+
+std::string author_name(std::string name) {
+  const std::string_view prefix = kNamePrefix;
+  for (std::size_t at = 0; (at = name.find(prefix, at)) != std::string::npos;) name.erase(at, prefix.size());
+  return name;
+}
 
 FragmentShader rewrite_fragment_shader(const ShaderSource& source, InputStyle style) {
   return Rewriter(source, style).run();

@@ -114,9 +114,15 @@ ShaderGenerator::ShaderGenerator(const ShaderSource& source, const FragmentShade
       written_out_(written_out),
       leaves_(leaves_of(inputs_)) {}
 
+std::vector<InputLeaf> ShaderGenerator::leaves() const {
+  std::vector<InputLeaf> leaves = leaves_;
+  for (InputLeaf& leaf : leaves) leaf.name = author_name(leaf.name);
+  return leaves;
+}
+
 std::vector<std::string> ShaderGenerator::component_names() const {
   std::vector<std::string> names;
-  for (const InputLeaf& leaf : leaves_)
+  for (const InputLeaf& leaf : leaves())
     for (std::uint32_t c = 0; c < leaf.components; ++c) names.push_back(component(leaf, c));
   return names;
 }
@@ -336,7 +342,7 @@ std::vector<ShaderGenerator::Component> ShaderGenerator::results() const {
 
 std::vector<std::string> ShaderGenerator::result_names() const {
   std::vector<std::string> names;
-  for (const Component& component : results()) names.push_back(component.name);
+  for (const Component& component : results()) names.push_back(author_name(component.name));
   return names;
 }
 

@@ -40,7 +40,8 @@ class ShaderGenerator {
   ShaderGenerator(const ShaderSource& source, const FragmentShader& shader, std::vector<Input> inputs, Supply supply,
                   int glsl_version, bool written_out = false);
 
-  const std::vector<InputLeaf>& leaves() const { return leaves_; }
+  // Named as the author does; as are the results.
+  std::vector<InputLeaf> leaves() const;
   std::vector<std::string> component_names() const;  // as Frame::attribute_names
   std::vector<std::string> result_names() const;  // of what result() captures: kKept, then outputs, then gl_FragDepth
   Geometry geometry() const;

@@ -45,13 +45,14 @@ std::vector<Input> supplied_inputs(const std::vector<Attribute>& attributes, con
   for (const Input& input : inputs) {
     bool complete = true;
     for (const InputLeaf& leaf : leaves_of({input})) {
+      const std::string name = author_name(leaf.name);
       const auto found =
-          std::find_if(attributes.begin(), attributes.end(), [&](const Attribute& a) { return a.name == leaf.name; });
+          std::find_if(attributes.begin(), attributes.end(), [&](const Attribute& a) { return a.name == name; });
       const Attribute* attribute = found == attributes.end() ? nullptr : &*found;
       complete = complete && attribute != nullptr;
       if (!input.used) continue;
       const std::string what =
-          position(source, input.where) + "input " + leaf.name + " (" + leaf_type(leaf.scalar, leaf.components) + ")";
+          position(source, input.where) + "input " + name + " (" + leaf_type(leaf.scalar, leaf.components) + ")";
       if (attribute == nullptr) throw UserError(what + " is not in the bundle, which has: " + names_of(attributes));
       if (attribute->scalar != leaf.scalar || attribute->components != leaf.components)
         throw UserError(what + " is " + leaf_type(attribute->scalar, attribute->components) + " in the bundle");

@@ -103,6 +103,21 @@ TEST_CASE("uniforms of every kind are set by name, matrices by column") {
   CHECK(row("e", 0) == std::vector<double>{4, 5, 0.5, 8});
 }
 
+TEST_CASE("inputs, outputs, uniforms and blocks may have names that became keywords after the shader's version") {
+  const std::string text =
+      "#version 330\nin float patch; in vec2 buffer[2]; uniform vec2 subroutine;\n"
+      "uniform shared { float u; } precise;\nlayout(location = 0) out vec3 sample;\n"
+      "void main() { sample = vec3(subroutine * buffer[1] + patch, precise.u); }\n";
+  ValueTable table{2, {}, {}, {}, {}};
+  table.inputs = {floats("patch", "float", {1, 2}), floats("buffer", "vec2[2]", {0, 0, 3, 4, 0, 0, 5, 6})};
+  table.uniforms = {floats("subroutine", "vec2", {10, 100}), floats("shared.u", "float", {7})};
+  const EvaluatedRows rows = same_everywhere(fragment(text), table);
+  CHECK(rows.outputs.at(0).name == "sample");
+  CHECK(value_at(rows.outputs[0], 1, 0) == 52);
+  CHECK(value_at(rows.outputs[0], 1, 1) == 602);
+  CHECK(value_at(rows.outputs[0], 1, 2) == 7);
+}
+
 TEST_CASE("uniforms that differ by row are what each row sees") {
   ValueTable table{5, {floats("x", "float", {1, 2, 3, 4, 5})}, {floats("k", "float", {10, 20, 10, 20, 30})}, {}, {}};
   const EvaluatedRows rows =

@@ -1,5 +1,6 @@
 #include "raster/gl/worker/program.h"
 
+#include "raster/gl/fragment_rewrite.h"
 #include "raster/gl/worker/failure.h"
 
 namespace twinshade::gl {
@@ -88,7 +89,7 @@ void Program::find_uniforms() {
     char name[1024];
     ActiveUniform uniform{};
     gl_.GetActiveUniform(id_, GLuint(i), sizeof name, nullptr, &uniform.size, &uniform.type, name);
-    uniform.name = name;
+    uniform.name = author_name(name);
     uniform.location = gl_.GetUniformLocation(id_, name);
     uniform.array = drop_first_element(uniform.name);
     if (uniform.location >= 0) uniforms_.push_back(uniform);  // members of blocks have none
@@ -103,7 +104,7 @@ void Program::find_blocks() {
     ActiveBlock block{};
     gl_.GetActiveUniformBlockName(id_, i, sizeof name, nullptr, name);
     gl_.GetActiveUniformBlockiv(id_, i, GL_UNIFORM_BLOCK_DATA_SIZE, &block.bytes);
-    block.name = name;
+    block.name = author_name(name);
     block.index = i;
     uniform_blocks_.push_back(block);
   }
@@ -113,7 +114,7 @@ void Program::find_blocks() {
     gl_.GetProgramResourceName(id_, GL_SHADER_STORAGE_BLOCK, i, sizeof name, nullptr, name);
     const GLenum property = GL_BUFFER_DATA_SIZE;
     gl_.GetProgramResourceiv(id_, GL_SHADER_STORAGE_BLOCK, i, 1, &property, 1, nullptr, &block.bytes);
-    block.name = name;
+    block.name = author_name(name);
     block.index = i;
     storage_blocks_.push_back(block);
   }

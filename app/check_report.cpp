@@ -187,7 +187,7 @@ std::string describe_check(const CheckedShader& shader, bool make_exact) {
   std::string text;
   if (!shader.message.empty()) text += "  " + shader.message + "\n";
   for (const BackendCheck& check : shader.backends)
-    if (!check.not_run.empty()) text += "  " + check.not_run + "\n";
+    if (!check.not_run.empty() && check.not_run != shader.message) text += "  " + check.not_run + "\n";
   if (shader.counterexample) text += counterexample_text(shader);
   constexpr std::size_t kShown = 12;
   if (!shader.findings.empty()) text += make_exact ? "  could not be made exact:\n" : "  outside the exact dialect:\n";

@@ -151,20 +151,29 @@ struct EvalVerb {
       if (!cases[i].error.empty()) continue;
       output.progress(fmt::format("running shaders: {} of {}", i + 1, cases.size()));
       guarded(cases[i], many, output, [&] {
-        for (const EvaluationTarget& target : targets) run_one(evaluator, sources[i], paths[i], target, cases[i]);
+        std::size_t refused = 0;
+        for (const EvaluationTarget& target : targets)
+          refused += run_one(evaluator, sources[i], paths[i], target, cases[i]) ? 0 : 1;
+        // What every backend refuses is wrong with the shader or its cases, not with a backend.
+        if (refused == targets.size()) throw UserError(cases[i].backends[0].error);
       });
     }
   }
 
-  static void run_one(Evaluator& evaluator, const ShaderSource& source, const CasePaths& paths,
+  // False where the backend refuses the shader or the table.
+  static bool run_one(Evaluator& evaluator, const ShaderSource& source, const CasePaths& paths,
                       const EvaluationTarget& target, EvaluatedCase& c) {
     EvaluatedBackend backend;
     backend.name = backend_name(target.backend);
+    bool refused = false;
     const auto start = Clock::now();
     try {
       backend.rows = evaluator.run(source, c.cases.table, target);
     } catch (const BackendError& error) {
       backend.error = error.what();
+    } catch (const UserError& error) {
+      backend.error = error.what();
+      refused = true;
     }
     backend.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     if (backend.error.empty()) {
@@ -172,6 +181,7 @@ struct EvalVerb {
       backend.comparison = compare_outputs(c.cases, backend.rows);
     }
     c.backends.push_back(std::move(backend));
+    return !refused;
   }
 
   void annotate_failures(const std::vector<EvaluatedCase>& cases, const Output& output) const {

@@ -14,7 +14,7 @@ namespace twinshade {
 
 struct EvaluatedBackend {
   std::string name;
-  std::string error;  // why it could not run; empty: it ran
+  std::string error;  // why it could not run: its driver refuses the shader, say; empty: it ran
   EvaluatedRows rows;
   OutputComparison comparison;
   double seconds = 0;

@@ -32,12 +32,14 @@ class Check {
 
   CheckedShader run() {
     if (!result_.message.empty()) return std::move(result_);
-    guarded([this] {
+    const bool compared = guarded([this] {
       generate();
       compare();
-      if (const BackendCheck* differing = first_differing()) explain_guarded(*differing);
-      if (options_.timing) time();
     });
+    if (!compared) return std::move(result_);
+    // The verdict stands, whatever goes wrong from here on.
+    if (const BackendCheck* differing = first_differing()) explain_guarded(*differing);
+    if (options_.timing) time();
     return std::move(result_);
   }
 
@@ -100,28 +102,39 @@ class Check {
   void compare() {
     const EvaluatedRows reference = evaluator_.run(source_, table_, options_.on[0]);
     result_.backends.push_back({options_.on[0], "", {}, 0});
-    std::size_t compared = 0;
+    std::size_t compared = 0, refused = 0;
     bool bits_differ = false;
     for (std::size_t i = 1; i < options_.on.size(); ++i) {
       BackendCheck check{options_.on[i], "", {}, 0};
       try {
-        const EvaluatedRows rows = evaluator_.run(source_, table_, options_.on[i]);
-        check.comparison = compare_with(reference, rows, source_, table_, options_.on[i]);
+        check.comparison = compare_with(reference, options_.on[i]);
+        if (check.comparison.compared == 0) throw BackendError(every_row_left_out(options_.on[i]));
         ++compared;
         bits_differ |= !check.comparison.rows.empty();
         result_.max_ulp = std::max(result_.max_ulp, check.comparison.max_ulp);
       } catch (const BackendError& error) {
         check.not_run = error.what();
+      } catch (const UserError& error) {  // its driver takes less than the first backend does
+        check.not_run = error.what();
+        ++refused;
       }
       result_.backends.push_back(std::move(check));
     }
     const bool close = options_.ulp && result_.max_ulp <= *options_.ulp;  // +0 and -0 are 0 apart
-    result_.verdict = compared == 0  ? Verdict::not_run
-                      : !bits_differ ? Verdict::same_bits
-                      : close        ? Verdict::same_to_ulp
-                                     : Verdict::differs;
+    const bool all_refuse = refused > 0 && refused + 1 == result_.backends.size();
+    result_.verdict = all_refuse      ? Verdict::refused
+                      : compared == 0 ? Verdict::not_run
+                      : !bits_differ  ? Verdict::same_bits
+                      : close         ? Verdict::same_to_ulp
+                                      : Verdict::differs;
     if (compared == 0)
       result_.message = result_.backends.size() < 2 ? "there is nothing to compare with" : result_.backends[1].not_run;
+  }
+
+  std::string every_row_left_out(const EvaluationTarget& other) const {
+    return std::string(backend_name(other.backend)) +
+           ": not compared: every row has a denormal input or uniform, which softpipe keeps and " +
+           backend_name((other.backend == Backend::softpipe ? options_.on[0] : other).backend) + " flushes";
   }
 
   const BackendCheck* first_differing() const {
@@ -137,30 +150,42 @@ class Check {
     return groups;
   }
 
+  // The two machines that are compared: the first backend and another.
+  struct Machines {
+    EvaluationTarget a, b;
+    bool without_denormals = false;  // in inputs and uniforms
+  };
+
+  // softpipe keeps the denormals that the others flush: beside it the CPU keeps them too, whichever comes first.
+  Machines machines(const EvaluationTarget& other) const {
+    Machines pair{options_.on[0], other};
+    const auto beside_softpipe = [](EvaluationTarget& target, const EvaluationTarget& beside) {
+      if (beside.backend == Backend::softpipe && target.backend == Backend::cpu) target.keep_denormals = true;
+      return beside.backend == Backend::softpipe && target.backend != Backend::cpu;
+    };
+    const bool first = beside_softpipe(pair.a, pair.b), second = beside_softpipe(pair.b, pair.a);
+    pair.without_denormals = first || second;
+    return pair;
+  }
+
   RowComparison compare(const ShaderSource& source, const ValueTable& table, const EvaluationTarget& other) {
-    return compare_with(evaluator_.run(source, table, options_.on[0]), evaluator_.run(source, table, other), source,
-                        table, other);
+    const Machines pair = machines(other);
+    return compare_rows(evaluator_.run(source, table, pair.a), evaluator_.run(source, table, pair.b),
+                        pair.without_denormals ? rows_with_denormals(table) : std::vector<bool>());
   }
 
-  // softpipe keeps the denormals that the others flush: there the CPU keeps them too.
-  EvaluationTarget reference_for(const EvaluationTarget& other) const {
-    EvaluationTarget target = options_.on[0];
-    target.keep_denormals = target.backend == Backend::cpu && other.backend == Backend::softpipe;
-    return target;
+  // The same of the whole table, where the first backend's rows are there already.
+  RowComparison compare_with(const EvaluatedRows& reference, const EvaluationTarget& other) {
+    const Machines pair = machines(other);
+    if (!(pair.a == options_.on[0])) return compare(source_, table_, other);
+    return compare_rows(reference, evaluator_.run(source_, table_, pair.b),
+                        pair.without_denormals ? rows_with_denormals(table_) : std::vector<bool>());
   }
 
-  RowComparison compare_with(const EvaluatedRows& reference, const EvaluatedRows& rows, const ShaderSource& source,
-                             const ValueTable& table, const EvaluationTarget& other) {
-    if (other.backend != Backend::softpipe) return compare_rows(reference, rows);
-    if (options_.on[0].backend != Backend::cpu) return compare_rows(reference, rows, rows_with_denormals(table));
-    return compare_rows(evaluator_.run(source, table, reference_for(other)), rows);
-  }
-
-  // The verdict stands, whatever goes wrong here.
   void explain_guarded(const BackendCheck& differing) {
     try {
       explain(differing);
-    } catch (const BackendError& error) {
+    } catch (const std::exception& error) {
       if (result_.counterexample) result_.counterexample->first_line.note = error.what();
     }
     if (result_.counterexample) as_the_author_wrote(*result_.counterexample);
@@ -188,6 +213,7 @@ class Check {
     for (std::size_t r = first; r < first + group_; ++r) rows.push_back(std::min(r, table_.rows - 1));
     example.row = row - first;
     example.values = select_rows(table_, rows);
+    result_.counterexample = example;  // what there is to tell, should the search fail
     ShaderSource source = source_;
     if (uses_frag_coord_) {  // a row keeps its place while it is moved about
       source = frag_coord_as_input(source_);
@@ -210,9 +236,9 @@ class Check {
   }
 
   void look_inside(const ShaderSource& source, const EvaluationTarget& other, Counterexample& example) {
+    const Machines pair = machines(other);
     try {
-      example.first_line =
-          first_differing_line(evaluator_, source, example.values, example.row, reference_for(other), other);
+      example.first_line = first_differing_line(evaluator_, source, example.values, example.row, pair.a, pair.b);
     } catch (const UserError& error) {
       example.first_line.note = std::string("cannot be looked for: ") + error.what();
     }
@@ -267,8 +293,11 @@ class Check {
     const ValueTable large = select_rows(one_uniform_set(), many), small = select_rows(one_uniform_set(), few);
     for (BackendCheck& check : result_.backends) {
       if (!check.not_run.empty()) continue;
-      const double seconds = fastest(large, check.target) - fastest(small, check.target);
-      check.ns_per_invocation = std::max(0.0, seconds) * 1e9 / double(kMany - few.size());
+      try {
+        const double seconds = fastest(large, check.target) - fastest(small, check.target);
+        check.ns_per_invocation = std::max(0.0, seconds) * 1e9 / double(kMany - few.size());
+      } catch (const std::exception&) {  // so many rows take longer than the time limit, say: no time is told
+      }
     }
   }
 

@@ -27,9 +27,9 @@ struct CheckOptions {
 
 struct BackendCheck {
   EvaluationTarget target;
-  std::string not_run;       // empty, or why
+  std::string not_run;       // empty, or why there is nothing to compare: its driver refuses the shader, say
   RowComparison comparison;  // with the first backend
-  double ns_per_invocation = 0;
+  double ns_per_invocation = 0;  // 0: not measured
 };
 
 // An input on which two machines differ.
@@ -46,7 +46,7 @@ enum class Verdict {
   same_bits,
   same_to_ulp,  // within CheckOptions::ulp
   differs,
-  refused,  // no valid GLSL, not supported, or its inputs cannot be made
+  refused,  // no valid GLSL, not supported, or its inputs cannot be made; or every other backend refuses it
   not_run,  // no backend to compare with could run
 };
 

@@ -147,6 +147,55 @@ TEST_CASE("zeros of different sign differ, unless --ulp is given: then they are 
   CHECK(given.json()["shaders"][0]["verdict"] == "same to 0 ULP");
 }
 
+TEST_CASE("names that became keywords after the shader's version are compared, and end nobody's check") {
+  if (!why_missing("egl").empty()) return;
+  const Folder folder;
+  const std::string named = folder.file("named.frag",
+                                        "#version 330\nin float patch; uniform float buffer;\nout float sample;\n"
+                                        "void main() { sample = patch * buffer; }\n");
+  const std::string plain = folder.file("plain.frag", "in float x; out float y;\nvoid main() { y = x + x; }\n");
+  const Run run = run_twinshade({"check", named, plain, "--on", "cpu,egl", "--no-timing", "--json", "-"});
+  CHECK_MESSAGE(run.code == 0, run.err);
+  for (const auto& shader : run.json()["shaders"]) CHECK(shader["verdict"] == "same bits");
+}
+
+TEST_CASE("a backend whose driver refuses the shader is named, and the others' verdict stands") {
+  if (!why_missing("egl").empty() || !why_missing("softpipe").empty()) return;
+  const Folder folder;
+  const std::string shader =  // softpipe has no gl_HelperInvocation
+      folder.file("helper.frag",
+                  "in float x; out float y;\nvoid main() { y = (gl_HelperInvocation ? 2.0 : 1.0) + sin(x); }\n");
+  const Run run =
+      run_twinshade({"check", shader, "--on", "cpu,softpipe,egl", "--rows", "256", "--no-timing", "--json", "-"});
+  CHECK(run.code == 2);  // softpipe was asked for
+  const nlohmann::json result = run.json()["shaders"][0];
+  CHECK(result["verdict"] == "differs");
+  CHECK(result["backends"][1]["not_run"].get<std::string>().find("gl_HelperInvocation") != std::string::npos);
+  CHECK(result["backends"][2]["rows_differ"] > 0);
+  const Run alone = run_twinshade({"check", shader, "--on", "cpu,softpipe", "--no-timing", "--json", "-"});
+  CHECK(alone.code == 2);
+  CHECK(alone.json()["shaders"][0]["verdict"] == "refused");
+}
+
+TEST_CASE("softpipe's denormals are the CPU's whichever comes first; where every row has one, nothing is the same") {
+  if (!why_missing("egl").empty() || !why_missing("softpipe").empty()) return;
+  const Folder folder;
+  const std::string body = "uniform float u; in float x; out float color;\nvoid main() {\n"
+                           "  precise float r = u * 16777216.0; precise float q = r * 16777216.0; color = q + x;\n}\n";
+  const std::string shader = folder.file("denormal.frag", "// @input u {1e-40}\n// @input x 0..0\n" + body);
+  const auto verdict = [&](const std::string& on) {
+    const Run run = run_twinshade({"check", shader, "--on", on, "--rows", "64", "--no-timing", "--json", "-"});
+    return run.json()["shaders"][0];
+  };
+  CHECK(verdict("cpu,softpipe")["verdict"] == "same bits");
+  CHECK(verdict("softpipe,cpu")["verdict"] == "same bits");
+  for (const std::string on : {"egl,softpipe", "softpipe,egl"}) {
+    const nlohmann::json result = verdict(on);
+    CHECK(result["verdict"] == "not run");
+    CHECK(result["message"].get<std::string>().find("not compared: every row has a denormal") != std::string::npos);
+  }
+}
+
 TEST_CASE("wrong shaders, ranges and files are refused with their place, the others are checked all the same") {
   const Folder folder;
   const std::string bad = folder.file("bad.frag", "out vec4 color;\nvoid main() {\n  color = nothing;\n}\n");

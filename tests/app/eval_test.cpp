@@ -204,6 +204,23 @@ TEST_CASE("eval refuses what it cannot run in one line") {
       "input n (int) has no values in the table");
 }
 
+TEST_CASE("a driver that refuses the shader is an error of its own, and the others' results stay") {
+  if (!why_missing("softpipe").empty()) return;
+  const Folder folder;
+  const std::string shader =  // softpipe has no gl_HelperInvocation
+      folder.file("a.frag", "in float x; out float r;\nvoid main() { r = gl_HelperInvocation ? 2.0 : x; }\n");
+  const std::string json = folder.file("a.json", R"({"values": {
+      "inputs": [{"name": "x", "type": "float", "values": [5]}],
+      "outputs": [{"name": "r", "type": "float", "values": [5]}]}})");
+  const Run run = run_twinshade({"eval", shader, "--cases", json, "--on", "softpipe,cpu", "--json", "-"});
+  CHECK(run.code == 2);
+  const nlohmann::json backends = run.json()["cases"][0]["backends"];
+  REQUIRE(backends.size() == 2);
+  CHECK(backends[0]["error"].get<std::string>().find("gl_HelperInvocation") != std::string::npos);
+  CHECK(backends[1]["failed_rows"] == 0);
+  check_refused({"eval", shader, "--cases", json, "--on", "softpipe"}, "gl_HelperInvocation");
+}
+
 TEST_CASE("a backend that cannot run is named with its reason, and the others' results stay") {
   const Folder folder;
   ::setenv("TWINSHADE_WORKER", "/nonexistent/worker", 1);

@@ -27,8 +27,8 @@ struct CheckOptions {
 
 struct BackendCheck {
   EvaluationTarget target;
-  std::string not_run;       // empty, or why there is nothing to compare: its driver refuses the shader, say
-  RowComparison comparison;  // with the first backend
+  std::string not_run;           // empty, or why there is nothing to compare: its driver refuses the shader, say
+  RowComparison comparison;      // with the first backend
   double ns_per_invocation = 0;  // 0: not measured
 };
 

@@ -27,7 +27,9 @@ Pair compare(Scalar scalar, std::uint32_t a, std::uint32_t b) {
   if (scalar != Scalar::f32) return {true, false, kNoUlp};
   const auto x = std::bit_cast<float>(a), y = std::bit_cast<float>(b);
   if (std::isnan(x) && std::isnan(y)) return {};
-  return {true, (is_denormal(a) && is_zero(b)) || (is_denormal(b) && is_zero(a)), ulp_distance(x, y)};
+  const bool flushed = std::signbit(x) == std::signbit(y) && (is_zero(a) || is_zero(b)) &&
+                       (is_denormal(a) || is_denormal(b));  // flushing keeps the sign
+  return {true, flushed, ulp_distance(x, y)};
 }
 
 // Adds one row; true if it differs by more than flushed denormals.

@@ -21,7 +21,7 @@ struct RowDifference {
 struct RowComparison {
   std::size_t compared = 0;            // rows
   std::size_t differ = 0;              // rows in which bits differ; NaN is one class
-  std::size_t denormal_only = 0;       // of those, rows where each difference is a denormal against zero
+  std::size_t denormal_only = 0;       // of those, rows where each difference is a denormal against its zero
   std::uint64_t max_ulp = 0;           // over the others
   std::optional<RowDifference> first;  // of those others, or else of all
   std::vector<std::size_t> rows;       // that differ by more than flushed denormals

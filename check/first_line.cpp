@@ -34,9 +34,9 @@ bool same(const TracedValue& a, const TracedValue& b) {
     if (a.bits[c] == b.bits[c]) continue;
     if (a.scalar != Scalar::f32) return false;
     const auto x = std::bit_cast<float>(a.bits[c]), y = std::bit_cast<float>(b.bits[c]);
-    const bool tiny = std::abs(x) < 0x1p-126f && std::abs(y) < 0x1p-126f;  // one may have been flushed
-    const bool zeros = x == 0 && y == 0;
-    if (!(std::isnan(x) && std::isnan(y)) && (!tiny || zeros)) return false;
+    const bool tiny = std::abs(x) < 0x1p-126f && std::abs(y) < 0x1p-126f;
+    const bool flushed = tiny && std::signbit(x) == std::signbit(y);  // which keeps the sign
+    if (!(std::isnan(x) && std::isnan(y)) && !flushed) return false;
   }
   return true;
 }

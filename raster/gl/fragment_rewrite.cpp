@@ -331,7 +331,8 @@ class Rewriter {
       return;
     std::string type = spelled(d.begin, d.declarators.front().name);
     if (d.inline_struct) {  // defined alone, then used by its name
-      if (tokens_[d.type + 1].text == "{") fail(d.begin, "a struct without a name that is given a value: give it a name");
+      if (tokens_[d.type + 1].text == "{")
+        fail(d.begin, "a struct without a name that is given a value: give it a name");
       const std::size_t first = d.declarators.front().name;
       std::size_t close = first;
       while (tokens_[close].text != "}") --close;

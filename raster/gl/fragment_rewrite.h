@@ -60,7 +60,8 @@ inline constexpr const char* kPrimitiveId = "twinshade_PrimitiveID";  // not Inp
 // have this prefix.
 inline constexpr const char* kNamePrefix = "twinshade_name_";
 
-// What the author calls a variable, a member or a block of the rewritten text: bundles, reflection and results name it so.
+// What the author calls a variable, a member or a block of the rewritten text: bundles, reflection and results name it
+// so.
 std::string author_name(std::string name);
 
 // UserError "file:line: ..." for what cannot be rewritten: struct inputs, inputs of unknown size, interpolateAt* and

@@ -180,8 +180,9 @@ TEST_CASE("a backend whose driver refuses the shader is named, and the others' v
 TEST_CASE("softpipe's denormals are the CPU's whichever comes first; where every row has one, nothing is the same") {
   if (!why_missing("egl").empty() || !why_missing("softpipe").empty()) return;
   const Folder folder;
-  const std::string body = "uniform float u; in float x; out float color;\nvoid main() {\n"
-                           "  precise float r = u * 16777216.0; precise float q = r * 16777216.0; color = q + x;\n}\n";
+  const std::string body =
+      "uniform float u; in float x; out float color;\nvoid main() {\n"
+      "  precise float r = u * 16777216.0; precise float q = r * 16777216.0; color = q + x;\n}\n";
   const std::string shader = folder.file("denormal.frag", "// @input u {1e-40}\n// @input x 0..0\n" + body);
   const auto verdict = [&](const std::string& on) {
     const Run run = run_twinshade({"check", shader, "--on", on, "--rows", "64", "--no-timing", "--json", "-"});

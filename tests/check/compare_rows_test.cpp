@@ -34,6 +34,14 @@ TEST_CASE("NaN is one class, zeros differ by their sign, denormals against zero 
   CHECK(c.first->row == 1);
 }
 
+TEST_CASE("a denormal is flushed to the zero of its sign: any other zero differs") {
+  const RowComparison c =
+      compare_rows(rows_of({1e-42f, -1e-42f, -1e-42f, 0.0f}), rows_of({0.0f, -0.0f, 0.0f, -1e-42f}));
+  CHECK(c.differ == 4);
+  CHECK(c.denormal_only == 2);
+  CHECK(c.rows == std::vector<std::size_t>{2, 3});
+}
+
 TEST_CASE("a discard on one side differs, outputs of discarded rows do not") {
   EvaluatedRows a = rows_of({1, 2, 3}), b = rows_of({1, 5, 3});
   a.kept = {1, 0, 1};

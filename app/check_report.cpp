@@ -82,7 +82,7 @@ std::string rows_text(const BackendCheck& check, bool reference) {
   if (!check.not_run.empty()) return "not run";
   if (reference) return "reference";
   const RowComparison& c = check.comparison;
-  if (c.differ == 0) return "same bits";
+  if (c.differ == 0) return c.within == 0 ? "same bits" : fmt::format("same to {} ULP", c.max_ulp);
   std::string text = fmt::format("{} of {} rows", c.differ, c.compared);
   if (c.denormal_only > 0) text += fmt::format(" ({} denormal only)", c.denormal_only);
   return text;

@@ -104,10 +104,13 @@ class Check {
     result_.backends.push_back({options_.on[0], "", {}, 0});
     std::size_t compared = 0, refused = 0;
     bool bits_differ = false;
+    std::vector<RowComparison> beyond(1);  // what of each comparison is beyond the distance that is called the same
     for (std::size_t i = 1; i < options_.on.size(); ++i) {
       BackendCheck check{options_.on[i], "", {}, 0};
       try {
-        check.comparison = compare_with(reference, options_.on[i]);
+        const Both both = run(source_, table_, options_.on[i], &reference);
+        check.comparison = compare_rows(both.a, both.b, both.leave_out);
+        beyond.push_back(compare_rows(both.a, both.b, both.leave_out, options_.ulp));
         if (check.comparison.compared == 0) throw BackendError(every_row_left_out(options_.on[i]));
         ++compared;
         bits_differ |= !check.comparison.rows.empty();
@@ -118,6 +121,7 @@ class Check {
         check.not_run = error.what();
         ++refused;
       }
+      beyond.resize(i + 1);
       result_.backends.push_back(std::move(check));
     }
     const bool close = options_.ulp && result_.max_ulp <= *options_.ulp;  // +0 and -0 are 0 apart
@@ -127,6 +131,10 @@ class Check {
                       : !bits_differ  ? Verdict::same_bits
                       : close         ? Verdict::same_to_ulp
                                       : Verdict::differs;
+    if (options_.ulp && result_.verdict == Verdict::differs) {  // told of and searched is what makes it so
+      allowed_ = options_.ulp;
+      for (std::size_t i = 1; i < beyond.size(); ++i) result_.backends[i].comparison = std::move(beyond[i]);
+    }
     if (compared == 0)
       result_.message = result_.backends.size() < 2 ? "there is nothing to compare with" : result_.backends[1].not_run;
   }
@@ -143,7 +151,7 @@ class Check {
     return nullptr;
   }
 
-  // Rows of a table in groups: whether the two machines differ in each by more than flushed denormals.
+  // Rows of a table in groups: whether the two machines differ in each by more than flushed denormals and allowed_.
   std::vector<bool> differs(const ShaderSource& source, const ValueTable& table, const EvaluationTarget& other) {
     std::vector<bool> groups(table.rows / group_);
     for (const std::size_t row : compare(source, table, other).rows) groups[row / group_] = true;
@@ -168,18 +176,23 @@ class Check {
     return pair;
   }
 
-  RowComparison compare(const ShaderSource& source, const ValueTable& table, const EvaluationTarget& other) {
+  struct Both {
+    EvaluatedRows a, b;
+    std::vector<bool> leave_out;  // as compare_rows has it
+  };
+
+  // reference: what the first backend computed, where that is known.
+  Both run(const ShaderSource& source, const ValueTable& table, const EvaluationTarget& other,
+           const EvaluatedRows* reference = nullptr) {
     const Machines pair = machines(other);
-    return compare_rows(evaluator_.run(source, table, pair.a), evaluator_.run(source, table, pair.b),
-                        pair.without_denormals ? rows_with_denormals(table) : std::vector<bool>());
+    const bool known = reference != nullptr && pair.a == options_.on[0];
+    return {known ? *reference : evaluator_.run(source, table, pair.a), evaluator_.run(source, table, pair.b),
+            pair.without_denormals ? rows_with_denormals(table) : std::vector<bool>()};
   }
 
-  // The same of the whole table, where the first backend's rows are there already.
-  RowComparison compare_with(const EvaluatedRows& reference, const EvaluationTarget& other) {
-    const Machines pair = machines(other);
-    if (!(pair.a == options_.on[0])) return compare(source_, table_, other);
-    return compare_rows(reference, evaluator_.run(source_, table_, pair.b),
-                        pair.without_denormals ? rows_with_denormals(table_) : std::vector<bool>());
+  RowComparison compare(const ShaderSource& source, const ValueTable& table, const EvaluationTarget& other) {
+    const Both both = run(source, table, other);
+    return compare_rows(both.a, both.b, both.leave_out, allowed_);
   }
 
   void explain_guarded(const BackendCheck& differing) {
@@ -324,6 +337,7 @@ class Check {
   ValueTable table_;
   std::size_t group_ = 1;  // rows that belong together: a quad where derivatives are taken
   bool uses_frag_coord_ = false, uses_zero_ = false;
+  std::optional<std::uint64_t> allowed_;  // distance in ULP that does not count as a difference; none: every bit does
   CheckedShader result_;
 };
 

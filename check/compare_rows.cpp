@@ -32,9 +32,10 @@ Pair compare(Scalar scalar, std::uint32_t a, std::uint32_t b) {
   return {true, flushed, ulp_distance(x, y)};
 }
 
-// Adds one row; true if it differs by more than flushed denormals.
-bool add_row(RowComparison& result, const EvaluatedRows& a, const EvaluatedRows& b, std::size_t row) {
+void add_row(RowComparison& result, const EvaluatedRows& a, const EvaluatedRows& b, std::size_t row,
+             std::optional<std::uint64_t> allowed) {
   std::optional<RowDifference> first, first_flushed;
+  bool within = false;
   if (a.kept[row] != b.kept[row])
     first = RowDifference{row, "discard", Scalar::boolean, a.kept[row] == 0u, b.kept[row] == 0u, kNoUlp};
   for (std::size_t o = 0; o < a.outputs.size() && a.kept[row] != 0 && b.kept[row] != 0; ++o) {
@@ -44,30 +45,37 @@ bool add_row(RowComparison& result, const EvaluatedRows& a, const EvaluatedRows&
       const std::uint32_t p = x.bits[row * components + c], q = y.bits[row * components + c];
       const Pair pair = compare(x.type.scalar, p, q);
       if (!pair.differ) continue;
+      if (!pair.flushed) result.max_ulp = std::max(result.max_ulp, pair.ulp);
+      if (!pair.flushed && allowed && pair.ulp <= *allowed) {
+        within = true;
+        continue;
+      }
       std::optional<RowDifference>& kept = pair.flushed ? first_flushed : first;
       if (!kept) kept = RowDifference{row, component_name(x.name, x.type, c), x.type.scalar, p, q, pair.ulp};
-      if (!pair.flushed) result.max_ulp = std::max(result.max_ulp, pair.ulp);
     }
   }
-  if (!first && !first_flushed) return false;
+  if (!first && !first_flushed) {
+    if (within) ++result.within;
+    return;
+  }
   ++result.differ;
   if (!first) ++result.denormal_only;
   const bool better = !result.first || (first && result.rows.empty());
   if (better) result.first = first ? first : first_flushed;
   if (first) result.rows.push_back(row);
-  return first.has_value();
 }
 
 }  // namespace
 
-RowComparison compare_rows(const EvaluatedRows& a, const EvaluatedRows& b, const std::vector<bool>& leave_out) {
+RowComparison compare_rows(const EvaluatedRows& a, const EvaluatedRows& b, const std::vector<bool>& leave_out,
+                           std::optional<std::uint64_t> allowed) {
   TWINSHADE_CHECK_EQ(a.kept.size(), b.kept.size());
   TWINSHADE_CHECK_EQ(a.outputs.size(), b.outputs.size());
   RowComparison result;
   for (std::size_t row = 0; row < a.kept.size(); ++row) {
     if (row < leave_out.size() && leave_out[row]) continue;
     ++result.compared;
-    add_row(result, a, b, row);
+    add_row(result, a, b, row, allowed);
   }
   return result;
 }

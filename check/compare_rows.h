@@ -25,10 +25,13 @@ struct RowComparison {
   std::uint64_t max_ulp = 0;           // over the others
   std::optional<RowDifference> first;  // of those others, or else of all
   std::vector<std::size_t> rows;       // that differ by more than flushed denormals
+  std::size_t within = 0;              // rows that differ by no more than was allowed: not in `differ`
 };
 
-// leave_out: empty, or by row: not compared where true. Both results are of one shader and one table.
-RowComparison compare_rows(const EvaluatedRows& a, const EvaluatedRows& b, const std::vector<bool>& leave_out = {});
+// leave_out: empty, or by row: not compared where true. allowed: the distance in ULP up to which a component does not
+// differ (max_ulp is over all the same); none: every bit counts. Both results are of one shader and one table.
+RowComparison compare_rows(const EvaluatedRows& a, const EvaluatedRows& b, const std::vector<bool>& leave_out = {},
+                           std::optional<std::uint64_t> allowed = std::nullopt);
 
 // By row: a float input or uniform is denormal.
 std::vector<bool> rows_with_denormals(const ValueTable& table);

@@ -42,6 +42,18 @@ TEST_CASE("a denormal is flushed to the zero of its sign: any other zero differs
   CHECK(c.rows == std::vector<std::size_t>{2, 3});
 }
 
+TEST_CASE("what is within the distance that is allowed does not differ") {
+  const float near = 1.0f + 0x1p-23f, far = 1.0f + 0x1p-20f;
+  const RowComparison c = compare_rows(rows_of({0.0f, 1.0f, 1.0f}), rows_of({-0.0f, near, far}), {}, 2);
+  CHECK(c.differ == 1);
+  CHECK(c.within == 2);
+  CHECK(c.rows == std::vector<std::size_t>{2});
+  REQUIRE(c.first);
+  CHECK(c.first->row == 2);
+  CHECK(c.max_ulp == 8);
+  CHECK(compare_rows(rows_of({0.0f}), rows_of({-0.0f})).within == 0);
+}
+
 TEST_CASE("a discard on one side differs, outputs of discarded rows do not") {
   EvaluatedRows a = rows_of({1, 2, 3}), b = rows_of({1, 5, 3});
   a.kept = {1, 0, 1};

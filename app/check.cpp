@@ -56,8 +56,19 @@ struct CheckVerb {
     options.generate.seed = common.seed;
     options.timing = !no_timing;
     evaluator_options.written_out = options.make_exact;
+    output.require_not_read(files_read());
     const int code = once(output, shaders);
     return watch ? watch_forever(output) : code;
+  }
+
+  std::vector<std::string> files_read() const {
+    std::vector<std::string> files;
+    if (!options.inputs_file.empty()) files.push_back(options.inputs_file);
+    for (const std::string& shader : shaders) {
+      files.push_back(shader + ".inputs");
+      for (std::string& file : files_of_shader(shader, options.include_folders)) files.push_back(std::move(file));
+    }
+    return files;
   }
 
   int once(const Output& output, const std::vector<std::string>& paths) {

@@ -94,7 +94,10 @@ struct EvalVerb {
       throw UserError("--cases is missing: a JSON file with the inputs of " + shader +
                       " and the outputs that are expected");
     }
+    if (many) output.require_not_taken(shader, ".json");
     const std::vector<CasePaths> paths = many ? pairs_in(shader) : std::vector<CasePaths>{{shader, cases_file, ""}};
+
+    output.require_not_read(files_read(paths));
 
     std::vector<ShaderSource> sources(paths.size());
     std::vector<EvaluatedCase> cases(paths.size());
@@ -110,6 +113,15 @@ struct EvalVerb {
     }
     evaluate(sources, paths, targets, many, cases, output);
     return report(cases, many, output);
+  }
+
+  std::vector<std::string> files_read(const std::vector<CasePaths>& paths) const {
+    std::vector<std::string> files;
+    for (const CasePaths& pair : paths) {
+      files.push_back(pair.cases);
+      for (std::string& file : files_of_shader(pair.shader, include_folders)) files.push_back(std::move(file));
+    }
+    return files;
   }
 
   std::vector<EvaluationTarget> named_targets() const {

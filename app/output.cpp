@@ -11,6 +11,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "cpu_shaders/shader_source.h"
 
 namespace twinshade {
 namespace fs = std::filesystem;
@@ -30,6 +31,15 @@ void write_to(const std::string& file, const std::string& text) {
     write_file(file, text);
 }
 
+// Whether two paths are one regular file, or would be if it were there. What is written to a device destroys nothing.
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code code;
+  if (fs::exists(a, code) && !fs::is_regular_file(a, code)) return false;
+  if (fs::equivalent(a, b, code)) return true;
+  const fs::path x = fs::weakly_canonical(fs::absolute(a, code), code);
+  return !code && x == fs::weakly_canonical(fs::absolute(b, code), code);
+}
+
 }  // namespace
 
 Output::Output(const CommonOptions& options, const std::string& junit_file)
@@ -38,7 +48,38 @@ Output::Output(const CommonOptions& options, const std::string& junit_file)
     throw UserError("--json - and --junit -: both go to stdout; name a file for one of them");
   for (const std::string& file : {options.json, junit_file})
     if (!file.empty() && file != "-") require_writable_file(file);
+  if (const auto written = files(); written.size() == 2 && same_file(written[0].second, written[1].second))
+    throw UserError("--json and --junit both write " + junit_file + ": name another file for one of them");
   shows_progress_ = !options.quiet && ::isatty(STDERR_FILENO);
+}
+
+std::vector<std::pair<std::string, std::string>> Output::files() const {
+  std::vector<std::pair<std::string, std::string>> files;
+  for (const auto& [option, file] : {std::pair("--json ", options_.json), std::pair("--junit ", junit_file_)})
+    if (!file.empty() && file != "-") files.emplace_back(option + file, file);
+  return files;
+}
+
+void Output::require_not_read(const std::vector<std::string>& read, const std::string& written) const {
+  auto all = files();
+  if (!written.empty()) {
+    for (const auto& [option, file] : all)
+      if (same_file(file, written)) throw UserError(option + ": -o writes it: name another file for one of them");
+    all.emplace_back("-o " + written, written);
+  }
+  for (const auto& [option, file] : all)
+    for (const std::string& input : read)
+      if (same_file(file, input))
+        throw UserError(option + ": it would replace " + input + ", which is read: name another file");
+}
+
+void Output::require_not_taken(const std::string& folder, const std::string& ending) const {
+  for (const auto& [option, file] : files()) {
+    std::error_code code;
+    const fs::path parent = fs::path(file).parent_path();
+    if (fs::path(file).extension() == ending && fs::equivalent(parent.empty() ? "." : parent, folder, code))
+      throw UserError(option + ": in " + folder + " it would be taken for cases: name a file in another folder");
+  }
 }
 
 void Output::text(const std::string& text) const {
@@ -72,6 +113,18 @@ void Output::json(const Json& json) const {
 }
 
 void Output::junit(const std::string& xml) const { write_to(junit_file_, xml); }
+
+std::vector<std::string> files_of_shader(const std::string& shader, const std::vector<std::string>& include_folders) {
+  std::vector<std::string> files{shader};
+  std::error_code code;
+  if (!fs::is_regular_file(shader, code)) return files;
+  try {
+    const ShaderSource source = load_fragment_shader(shader, include_folders);
+    files.insert(files.end(), source.files.begin(), source.files.end());
+  } catch (const UserError&) {
+  }
+  return files;
+}
 
 void require_writable_folder(const std::string& folder) {
   std::error_code code;

@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "app/options.h"
 #include "base/file.h"
@@ -15,8 +17,13 @@ using Json = nlohmann::ordered_json;
 // stderr, so that what a program reads is that alone. UserError where stdout cannot be written.
 class Output {
  public:
-  // Refuses files that cannot be written before any work is done. junit_file: what --junit says, of verbs that have it.
+  // Refuses files that cannot be written, and one file for two results, before any work is done. junit_file: what
+  // --junit says, of verbs that have it.
   explicit Output(const CommonOptions& options, const std::string& junit_file = {});
+  // Refuses to write over a file that the verb reads. `written`: what else it writes, beside --json and --junit.
+  void require_not_read(const std::vector<std::string>& read, const std::string& written = {}) const;
+  // Refuses a file in `folder` with this ending: the next run would read it.
+  void require_not_taken(const std::string& folder, const std::string& ending) const;
   void text(const std::string& text) const;  // a result, as is
   void note(const std::string& line) const;  // "note: ..." on stderr, unless --quiet
   // What is being done, on stderr where that is a terminal, unless --quiet; the next output replaces it.
@@ -26,12 +33,18 @@ class Output {
 
  private:
   void clear_progress() const;
+  // What is said of a file, and the file; none for stdout.
+  std::vector<std::pair<std::string, std::string>> files() const;
 
   const CommonOptions& options_;
   const std::string junit_file_;
   bool shows_progress_ = false;
   mutable bool progress_shown_ = false;
 };
+
+// A shader's file and those that it includes, as far as they can be told: what is wrong with it is said elsewhere. A
+// pipe can be read once only: alone.
+std::vector<std::string> files_of_shader(const std::string& shader, const std::vector<std::string>& include_folders);
 
 // Creates `folder` and those above it. UserError where that cannot be done or it cannot be written to.
 void require_writable_folder(const std::string& folder);

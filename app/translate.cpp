@@ -47,6 +47,7 @@ struct TranslateVerb {
     if (file.empty() && common.json == "-")
       throw UserError("--json -: the C++ goes to stdout; name a file for one of them");
     const ShaderSource source = source_of(shader, include_folders);
+    output.require_not_read(source.files, file);
     TranslateOptions options;
     options.readable = true;
     const Translation translation = translate(source, options);

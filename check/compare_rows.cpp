@@ -32,6 +32,7 @@ Pair compare(Scalar scalar, std::uint32_t a, std::uint32_t b) {
   return {true, flushed, ulp_distance(x, y)};
 }
 
+// Adds one row.
 void add_row(RowComparison& result, const EvaluatedRows& a, const EvaluatedRows& b, std::size_t row,
              std::optional<std::uint64_t> allowed) {
   std::optional<RowDifference> first, first_flushed;

@@ -150,6 +150,45 @@ TEST_CASE("a file that is replaced keeps its permissions") {
   CHECK(read_file(file) != "{}");
 }
 
+TEST_CASE("nothing is written over what is read, nor two results to one file") {
+  const Folder folder;
+  const std::string part = folder.file("part.glsl", "float part(float x) { return x; }\n");
+  const std::string text = "#include \"part.glsl\"\nin float x; out float r;\nvoid main() { r = part(x); }\n";
+  const std::string shader = folder.file("a.frag", text);
+  const std::string cases =
+      folder.file("a.json", R"({"values": {"inputs": [{"name": "x", "type": "float", "values": [5]}]}})");
+  const std::string side = folder.file("a.frag.inputs", "x 0..1\n");
+  fs::create_symlink(cases, folder / "link.json");
+  const std::string fresh = folder / "fresh";
+  const std::vector<std::string> eval{"eval", shader, "--cases", cases, "--on", "cpu"};
+  const std::vector<std::string> check{"check", shader, "--on", "cpu,egl", "--no-timing"};
+  const std::vector<std::pair<std::vector<std::string>, std::vector<std::string>>> refused{
+      {eval, {"--json", cases}},
+      {eval, {"--junit", folder / "link.json"}},
+      {eval, {"--json", shader}},
+      {{"eval", folder.file("bad.frag", "no GLSL"), "--cases", cases}, {"--json", cases}},
+      {eval, {"--json", part}},
+      {eval, {"--json", fresh, "--junit", folder / "./fresh"}},
+      {{"eval", folder / ".", "--on", "cpu"}, {"--json", folder / "results.json"}},
+      {check, {"--json", side}},
+      {check, {"--junit", shader}},
+      {check, {"--junit", part}},
+      {check, {"--inputs", fresh, "--json", fresh}},
+      {{"translate", shader}, {"-o", part}},
+      {{"translate", shader}, {"-o", fresh, "--json", fresh}}};
+  for (const auto& verb_and_files : refused) {
+    std::vector<std::string> arguments = verb_and_files.first;
+    arguments.insert(arguments.end(), verb_and_files.second.begin(), verb_and_files.second.end());
+    const Run run = run_twinshade(arguments);
+    CAPTURE(run.err);
+    CHECK(run.code == 2);
+    CHECK(run.err.find(": name a") != std::string::npos);
+  }
+  CHECK(read_file(shader) == text);
+  CHECK(read_file(side) == "x 0..1\n");
+  CHECK(!fs::exists(fresh));
+}
+
 TEST_CASE("JUnit XML goes to stdout if asked, alone, but not beside JSON") {
   const Folder folder;
   const std::vector<std::string> eval{

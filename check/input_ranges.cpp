@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "base/error.h"
@@ -22,16 +23,38 @@ std::vector<std::string> words_of(const std::string& text) {
   return words;
 }
 
+// Decimal, or a hex float as C writes it.
 double number(const std::string& text, const std::string& where) {
+  const bool negative = text.rfind('-', 0) == 0;
+  std::string_view digits = std::string_view(text).substr(negative ? 1 : 0);
+  const bool hex = digits.substr(0, 2) == "0x";
+  if (hex) digits.remove_prefix(2);
+  const bool second_sign = digits.substr(0, 1) == "-";  // from_chars would take it
   double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value,
+                                            hex ? std::chars_format::hex : std::chars_format::general);
+  if (second_sign || error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value))
     throw UserError(where + "\"" + text + "\" is no finite number");
-  return value;
+  return negative ? -value : value;
+}
+
+std::pair<double, double> interval(const std::string& word, const std::string& where) {
+  const std::size_t dots = word.find("..");
+  if (word.find("...") != std::string::npos) throw UserError(where + word + ": two dots stand between the ends");
+  const double low = number(word.substr(0, dots), where), high = number(word.substr(dots + 2), where);
+  if (low > high) throw UserError(where + word + ": the lower end comes first");
+  return {low, high};
+}
+
+// What stands behind a range may be one that was mistyped.
+void require_end(const std::vector<std::string>& words, std::size_t end, const std::string& where) {
+  if (end < words.size())
+    throw UserError(where + "\"" + words[end] + "\" is too much behind the range: // begins a comment");
 }
 
 // NAME 0..1 | NAME -1..1 0..2 0..2 | NAME {0, 1, 2} | NAME unit|finite|any
-InputRange range_of(const std::string& text, const std::string& where) {
+InputRange range_of(const std::string& line, const std::string& where) {
+  const std::string text = line.substr(0, line.find("//"));  // what follows is for people
   const std::vector<std::string> words = words_of(text);
   if (words.size() < 2)
     throw UserError(where + "an input range is NAME LOW..HIGH, NAME {A, B}, or NAME unit|finite|any");
@@ -48,22 +71,22 @@ InputRange range_of(const std::string& text, const std::string& where) {
     range.kind = InputRange::Kind::list;
     for (const std::string& word : words_of(list)) range.values.push_back(number(word, where));
     if (range.values.empty()) throw UserError(where + "the list of values is empty");
+    require_end(words_of(text.substr(close + 1)), 0, where);
     return range;
   }
   if (words[1] == "unit" || words[1] == "finite" || words[1] == "any") {
     range.kind = words[1] == "unit"     ? InputRange::Kind::unit
                  : words[1] == "finite" ? InputRange::Kind::finite
                                         : InputRange::Kind::any;
+    require_end(words, 2, where);
     return range;
   }
-  for (std::size_t i = 1; i < words.size() && words[i].find("..") != std::string::npos; ++i) {
-    const std::size_t dots = words[i].find("..");
-    const double low = number(words[i].substr(0, dots), where), high = number(words[i].substr(dots + 2), where);
-    if (low > high) throw UserError(where + words[i] + ": the lower end comes first");
-    range.intervals.emplace_back(low, high);
-  }
+  std::size_t end = 1;
+  for (; end < words.size() && words[end].find("..") != std::string::npos; ++end)
+    range.intervals.push_back(interval(words[end], where));
   if (range.intervals.empty())
     throw UserError(where + "\"" + words[1] + "\" is no range: LOW..HIGH, {A, B}, unit, finite or any");
+  require_end(words, end, where);
   return range;
 }
 
@@ -117,6 +140,18 @@ void keep_those_in_force(const ShaderSource& source, InputComments& comments) {
   comments = std::move(in_force);
 }
 
+// Where a // comment begins, if one does; not within a block comment, which may go on from the line before.
+std::size_t line_comment(const std::string& line, bool& in_block) {
+  for (std::size_t at = 0; at + 1 < line.size(); ++at) {
+    const std::string_view two = std::string_view(line).substr(at, 2);
+    if (!in_block && two == "//") return at;
+    if (two != (in_block ? "*/" : "/*")) continue;
+    in_block = !in_block;
+    ++at;
+  }
+  return std::string::npos;
+}
+
 }  // namespace
 
 std::vector<InputRange> declared_ranges(const ShaderSource& source) {
@@ -125,6 +160,7 @@ std::vector<InputRange> declared_ranges(const ShaderSource& source) {
   std::string file = source.files.empty() ? source.name : source.files[0];
   int number_of_line = 0;
   std::size_t at = 0;
+  bool in_block = false;
   for (std::string line; std::getline(lines, line); ++at) {
     ++number_of_line;
     if (line.rfind("#line ", 0) == 0) {
@@ -133,9 +169,12 @@ std::vector<InputRange> declared_ranges(const ShaderSource& source) {
       if (close != open) file = line.substr(open + 1, close - open - 1);
       continue;
     }
-    const std::size_t comment = line.find("//");
+    const std::size_t comment = line_comment(line, in_block);
     const std::size_t tag = comment == std::string::npos ? comment : line.find("@input", comment);
     if (tag == std::string::npos || line.find_first_not_of("/ \t", comment) != tag) continue;
+    if (const std::size_t end = std::min(line.find_first_of(" \t\r", tag), line.size()); end != tag + 6)
+      throw UserError(file + ":" + std::to_string(number_of_line) + ": unknown comment " + line.substr(tag, end - tag) +
+                      ": a range is declared by @input NAME");
     comments[at] = {line.substr(tag + 6), file, number_of_line};
   }
   keep_those_in_force(source, comments);

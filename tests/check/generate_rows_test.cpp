@@ -132,6 +132,31 @@ TEST_CASE("samplers take one interval of floats, blocks none") {
   for (const float texel : table.textures[0].texels) CHECK((texel >= 5 && texel <= 6));
 }
 
+TEST_CASE("what stands behind a range, or is nearly one, is refused at its line") {
+  const auto refusal = [](const std::string& comment) -> std::string {
+    try {
+      declared_ranges(shader("\n" + comment));
+    } catch (const UserError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  CHECK(refusal("// @input x 0..1 5 3..4").find("s.frag:2: \"5\" is too much") == 0);
+  for (const std::string range : {"0..1 junk", "{1, 2} 3", "unit length", "any 0..1"})
+    CHECK_MESSAGE(refusal("// @input x " + range).find("is too much behind the range") != std::string::npos, range);
+  for (const std::string range : {"0...1", "0..1..2", "--1..2", "0x..1", "0x-1..2", "-0x..1"})
+    CHECK_MESSAGE(refusal("// @input x " + range) != "", range);
+  CHECK(refusal("// @inputs x 1..2").find("s.frag:2: unknown comment @inputs") == 0);
+  for (const std::string range : {"0..1 // every component", "{1, 2} // two", "unit//long", "-0x1.8p-3..0x1p3"})
+    CHECK_MESSAGE(refusal("// @input x " + range) == "", range);
+  CHECK(declared_ranges(shader("// @input x -0x1.8p-3..0x1p3")).at(0).intervals.at(0) == std::pair(-0.1875, 8.0));
+}
+
+TEST_CASE("a range within a block comment is none") {
+  CHECK(declared_ranges(shader("/* // @input x 3..4 */\n/*\n// @input y 0..1\n*/ // @input z 0..1")).size() == 1);
+  CHECK(declared_ranges(shader("// /*\n// @input x 3..4\n//*/")).size() == 1);
+}
+
 TEST_CASE("a second line for the same input is refused, with the place of the first") {
   CHECK_THROWS_WITH_AS(declared_ranges(shader("// @input x 0..1\n\n// @input x 0..2")),
                        "s.frag:3: a second range for x, after s.frag:1: keep one; a side file goes before comments",

@@ -12,8 +12,13 @@
 namespace twinshade {
 namespace {
 
-constexpr std::size_t kMostValues = 8192;     // of one invocation
-constexpr std::size_t kMostStatements = 512;  // tried on the other machine: each is compiled there
+constexpr std::size_t kMostValues = 8192;               // of one invocation
+constexpr std::size_t kMostStatements = 512;            // tried on the other machine: each is compiled there
+constexpr std::size_t kMostLlvmpipeIterations = 65535;  // of a loop, which it then leaves: lp_bld_limits.h
+
+bool is_llvmpipe(const EvaluationTarget& machine) {
+  return machine.backend == Backend::egl || machine.backend == Backend::osmesa;
+}
 
 struct TracedValue {
   std::size_t value = 0;                   // of ProbedShader::values
@@ -96,7 +101,7 @@ class Search {
  public:
   Search(Evaluator& evaluator, const ShaderSource& source, const ValueTable& table, std::size_t row,
          const EvaluationTarget& a, const EvaluationTarget& b)
-      : tracer_(evaluator, table, row), source_(source), all_(add_probes(source)), b_(b) {
+      : tracer_(evaluator, table, row), source_(source), all_(add_probes(source)), a_(a), b_(b) {
     const std::size_t count = std::min(tracer_.run(all_.source, a, 1).all, kMostValues);
     trace_ = tracer_.run(all_.source, a, std::max<std::size_t>(count, 1));
     for (std::size_t t = 0; t < trace_.values.size(); ++t) {
@@ -118,7 +123,7 @@ class Search {
     if (!others.empty() && (!found_ || differ({others.begin(), others.end()}))) one_by_one(others);
     FirstLine result;
     result.difference = found_;
-    if (!found_) result.note = why_none();
+    if (!found_) result.note = why_none() + perhaps_cut_loop();
     return result;
   }
 
@@ -188,10 +193,17 @@ class Search {
            "an output that is never written";
   }
 
+  std::string perhaps_cut_loop() const {
+    if (trace_.all <= kMostLlvmpipeIterations || is_llvmpipe(a_) == is_llvmpipe(b_)) return "";
+    return "; " + std::string(backend_name((is_llvmpipe(a_) ? a_ : b_).backend)) + " leaves every loop after " +
+           std::to_string(kMostLlvmpipeIterations) + " iterations, and " + std::to_string(trace_.all) +
+           " values are computed here";
+  }
+
   const Tracer tracer_;
   const ShaderSource& source_;
   const ProbedShader all_;
-  const EvaluationTarget& b_;
+  const EvaluationTarget &a_, &b_;
   Trace trace_;
   std::map<std::size_t, std::vector<std::size_t>> times_;  // of a statement's values
   std::vector<std::size_t> order_;                         // statements by when they are first executed

@@ -213,6 +213,20 @@ TEST_CASE("under --ulp what is reported is what exceeds it") {
   CHECK(result["backends"][1]["rows_differ"] < result["backends"][1]["rows"]);
 }
 
+TEST_CASE("a loop that llvmpipe leaves early is named as what may be the cause") {
+  if (!why_missing("egl").empty()) return;
+  const Folder folder;
+  const std::string shader =
+      folder.file("long.frag",
+                  "// @input n {70000}\nflat in int n; out float r;\nvoid main() {\n  int i = 0;\n"
+                  "  for (; i < n; ++i) r = 0.0;\n  r = float(i);\n}\n");
+  const Run run = run_twinshade({"check", shader, "--on", "cpu,egl", "--rows", "16", "--no-timing", "--json", "-"});
+  const nlohmann::json result = run.json()["shaders"][0];
+  REQUIRE(result["verdict"] == "differs");
+  const std::string note = result["counterexample"]["first_line"]["note"];
+  CHECK_MESSAGE(note.find("leaves every loop after 65535 iterations") != std::string::npos, note);
+}
+
 TEST_CASE("wrong shaders, ranges and files are refused with their place, the others are checked all the same") {
   const Folder folder;
   const std::string bad = folder.file("bad.frag", "out vec4 color;\nvoid main() {\n  color = nothing;\n}\n");

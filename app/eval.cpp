@@ -43,7 +43,7 @@ std::vector<CasePaths> pairs_in(const std::string& folder) {
     if (!shader && path.extension() != ".json") continue;
     const fs::path partner = fs::path(path).replace_extension(shader ? ".json" : ".frag");
     std::error_code missing;
-    const bool paired = fs::exists(partner, missing);
+    const bool paired = fs::exists(fs::symlink_status(partner, missing));  // where a link leads is seen when it is read
     if (paired && !shader) continue;
     pairs.push_back({path.string(), partner.string()});
     if (!paired)

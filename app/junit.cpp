@@ -68,6 +68,9 @@ std::string command_text(const std::string& text, bool property) {
   return result;
 }
 
+// "./x" as services know it.
+std::string plain(const std::string& path) { return path.rfind("./", 0) == 0 ? path.substr(2) : path; }
+
 // Where the message says it is: FILE:LINE: ...
 std::optional<std::pair<std::string, int>> place_in(const std::string& message) {
   std::smatch match;
@@ -83,9 +86,9 @@ std::string github_annotations(const std::vector<JUnitCase>& cases) {
     if (c.result == JUnitCase::Result::passed) continue;
     const auto [file, line] = place_in(c.message).value_or(std::pair(c.file, c.line));
     std::string properties;
-    if (!file.empty()) properties += " file=" + command_text(file, true);
+    if (!file.empty()) properties += " file=" + command_text(plain(file), true);
     if (!file.empty() && line > 0) properties += fmt::format(",line={}", line);
-    properties += (properties.empty() ? " title=" : ",title=") + command_text(c.name, true);
+    properties += (properties.empty() ? " title=" : ",title=") + command_text(plain(c.name), true);
     const std::string details = c.text.empty() ? c.message : c.message + "\n" + c.text;
     lines += "::error" + properties + "::" + command_text(details, false) + "\n";
   }
@@ -104,8 +107,8 @@ std::string junit_xml(const std::string& suite, const std::vector<JUnitCase>& ca
       fmt::format("<testsuites>\n<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"{:.3f}\">\n",
                   escaped(suite), cases.size(), count(Result::failed), count(Result::error), seconds);
   for (const JUnitCase& c : cases) {
-    xml += fmt::format("<testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\">", escaped(suite), escaped(c.name),
-                       c.seconds);
+    xml += fmt::format("<testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\">", escaped(suite),
+                       escaped(plain(c.name)), c.seconds);
     if (c.result != Result::passed) {
       const char* tag = c.result == Result::failed ? "failure" : "error";
       xml += fmt::format("\n<{0} message=\"{1}\">{2}</{0}>\n", tag, escaped(c.message), escaped(c.text));

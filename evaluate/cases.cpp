@@ -27,6 +27,11 @@ std::vector<std::string> every_type_name() {
   return names;
 }
 
+// What a file says, as far as a message repeats it.
+std::string shortened(const std::string& text, std::size_t most = 60) {
+  return text.size() <= most ? text : text.substr(0, most) + "...";
+}
+
 // A double that becomes the float nearest to the number that it was rounded from: where it lies half-way between two
 // floats and the number does not, it moves one step to the number's side.
 double towards(double value, float nearest) {
@@ -78,7 +83,7 @@ class TreeBuilder final : public nlohmann::json_sax<Json> {
   bool end_array() override { return close(); }
   bool key(std::string& name) override {
     if (open_.back()->contains(name)) {
-      error = origin_ + ": \"" + name + "\" stands twice in one object: keep one";
+      error = origin_ + ": \"" + shortened(name) + "\" stands twice in one object: keep one";
       return false;
     }
     key_ = name;
@@ -88,14 +93,14 @@ class TreeBuilder final : public nlohmann::json_sax<Json> {
     const std::string_view before = text_.substr(0, position);
     error = origin_ + ":" + std::to_string(1 + std::count(before.begin(), before.end(), '\n')) + ": ";
     if (e.id == 406) {  // out_of_range
-      error += token + " is beyond what a double holds: write \"inf\" where infinity is meant";
+      error += shortened(token) + " is beyond what a double holds: write \"inf\" where infinity is meant";
       return false;
     }
     // "[json.exception.parse_error.101] parse error at line 3, column 5: ..."
     const std::string what = e.what();
     const std::size_t line = what.find("line "), colon = what.find(": ", line);
     const bool placed = line != std::string::npos && colon != std::string::npos;
-    error += "malformed JSON: " + what.substr(placed ? colon + 2 : what.find("] ") + 2);
+    error += "malformed JSON: " + shortened(what.substr(placed ? colon + 2 : what.find("] ") + 2), 160);
     return false;
   }
 
@@ -166,7 +171,7 @@ class CasesReader {
     if (!object.is_object()) fail(what + " must be a JSON object");
     for (const auto& [key, value] : object.items())
       if (std::find(keys.begin(), keys.end(), key) == keys.end())
-        fail(unknown_name_message("key", key, keys) + " (in " + what + ")");
+        fail(unknown_name_message("key", shortened(key), keys) + " (in " + what + ")");
   }
 
   std::vector<Column> columns(const Json& values, const std::string& kind) const {
@@ -193,20 +198,21 @@ class CasesReader {
     Column column;
     Values& values = column.values;
     values.name = text_of(object, "name", what);
-    what += " (" + values.name + ")";
+    what += " (" + shortened(values.name) + ")";
     const std::string type = text_of(object, "type", what);
     const std::optional<ValueType> found = find_type(type);
     if (!found) {
-      const std::string message = unknown_name_message("type", type, every_type_name());
+      const std::string message = unknown_name_message("type", shortened(type), every_type_name());
       const bool nested = std::count(type.begin(), type.end(), '[') > 1;
       fail(what + ": " +
-           (nested ? "\"" + type + "\": give each array of an array of arrays by itself, as " + values.name + "[0], " +
-                         values.name + "[1] ..."
+           (nested ? "\"" + shortened(type) + "\": give each array of an array of arrays by itself, as " + values.name +
+                         "[0], " + values.name + "[1] ..."
                    : message + "; arrays are written \"vec3[4]\""));
     }
     values.type = *found;
     if (!object.contains("values") || !object["values"].is_array()) fail(what + " needs \"values\", a list of rows");
     const Json& rows = object["values"];
+    if (rows.empty()) fail(what + " has no rows: give \"values\" one for each invocation");
     for (std::size_t row = 0; row < rows.size(); ++row) {
       const std::string where = what + ", row " + std::to_string(row);
       const std::size_t before = values.doubles.size();

@@ -178,6 +178,16 @@ TEST_CASE("a file of a folder without its partner is an error of its own, and th
   CHECK(read_file(junit).find("tests=\"3\" failures=\"0\" errors=\"2\"") != std::string::npos);
 }
 
+TEST_CASE("a link that leads nowhere is one error, of the file that cannot be read") {
+  const Folder folder;
+  folder.file("l.json", cases("[[1, 2], [4, 6]]"));
+  std::filesystem::create_symlink("nowhere", folder / "l.frag");
+  const Run run = run_twinshade({"eval", folder / ".", "--on", "cpu", "--json", "-"});
+  CHECK(run.code == 2);
+  REQUIRE(run.json()["cases"].size() == 1);
+  CHECK(run.json()["cases"][0]["error"].get<std::string>().find("cannot be") != std::string::npos);
+}
+
 TEST_CASE("number types are refused with the list that --help has") {
   const Folder folder;
   const std::string shader = folder.file("a.frag", kShader), json = folder.file("a.json", cases("[[1, 2], [4, 6]]"));

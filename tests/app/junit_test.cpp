@@ -18,6 +18,12 @@ TEST_CASE("an annotation stands at the line that the message begins with, else a
         "::error file=c.frag,line=7,title=c::differs\n");
 }
 
+TEST_CASE("services know ./a.frag as a.frag") {
+  const std::vector<JUnitCase> cases{{"./a.frag", Result::failed, "differs", "", 0, "./a.frag", 7}};
+  CHECK(github_annotations(cases) == "::error file=a.frag,line=7,title=a.frag::differs\n");
+  CHECK(junit_xml("s", cases).find("name=\"a.frag\"") != std::string::npos);
+}
+
 TEST_CASE("what no XML document may hold becomes U+FFFD, all else stays") {
   const auto written = [](const std::string& message) {
     const std::string xml = junit_xml("s", {{"n", Result::error, message, "", 0, "", 0}});

@@ -290,16 +290,22 @@ void FunctionEmitter::call(const Instruction& i) {
   if (callee.needs_mask) arguments.push_back(mask_or_all());
   for (std::size_t k = 0; k + 1 < i.operands.size(); ++k) {
     const Id id = i.operands[k + 1];
-    if (module_.type_of(id).kind != Kind::pointer || info_.argument_temporaries.count(id)) {
-      const Expression a = value(id);
-      e.reads.insert(a.reads.begin(), a.reads.end());
-      arguments.push_back(a.text);
-    } else {
-      const Expression a = load(place(passed(id)));
-      e.reads.insert(a.reads.begin(), a.reads.end());
-      arguments.push_back(a.text);
+    const bool is_value = module_.type_of(id).kind != Kind::pointer || info_.argument_temporaries.count(id);
+    Expression a = is_value ? value(id) : load(place(passed(id)));
+    // What is not copied for the callee may be what it writes.
+    const bool written = std::any_of(a.reads.begin(), a.reads.end(),
+                                     [&](Id variable) { return info.globals_written.count(variable) != 0; });
+    if (written && info.passed_uncopied(module_, k)) {
+      const Parameter& p = info.function->parameters[k];
+      const std::string name = names_.declare("t" + std::to_string(++temporary_count_));
+      position(i.file, i.line);
+      out_.line("const " + types_.name(info.parameter_type(module_, k), callee.is_varying(p.id)) + " " + name + " = " + a.text +
+                ";");
+      a = Expression{name, 1, {}};
     }
   }
+    e.reads.insert(a.reads.begin(), a.reads.end());
+    arguments.push_back(a.text);
   e.precedence = 1;
   e.text = callee.name + "(";
   for (std::size_t k = 0; k < arguments.size(); ++k) e.text += (k == 0 ? "" : ", ") + arguments[k];

@@ -54,13 +54,12 @@ void FunctionEmitter::run() {
     const Parameter& p = parameters[k];
     const Type& t = module_.type(p.type);
     const bool pointer = t.kind == Kind::pointer;
-    const Id type = pointer ? t.element : p.type;
     const bool varying = at_.is_varying(p.id);
+    const Id type = info_.parameter_type(module_, k);
     std::string text = types_.name(type, varying);
-    const Kind kind = module_.type(type).kind;
     if (info_.is_reference(k))
       text += "&";
-    else if ((kind == Kind::array || kind == Kind::structure) && !info_.written_parameters.count(k))
+    else if (info_.passed_uncopied(module_, k))
       text = "const " + text + "&";
     const std::string name = declare(p.id, module_.name(p.id));
     list_text += (list_text.empty() ? "" : ", ") + text + " " + name;
@@ -68,7 +67,7 @@ void FunctionEmitter::run() {
     Expression e;
     e.text = name;
     e.precedence = 1;
-    if (!pointer || kind == Kind::sampler) values_[p.id] = e;
+    if (!pointer || module_.type(type).kind == Kind::sampler) values_[p.id] = e;
   }
   const Id result_type = info_.function->result_type;
   const bool returns_value = module_.type(result_type).kind != Kind::none;

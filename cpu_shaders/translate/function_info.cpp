@@ -244,6 +244,16 @@ Program analyse(Module module) {
     complete_struct_copies(program.module, *info.function);
     simplify(program.module, *info.function);
     info.body = structure(program.module, *info.function);
+Id FunctionInfo::parameter_type(const Module& module, std::size_t parameter) const {
+  const Id type = function->parameters[parameter].type;
+  return module.type(type).kind == Kind::pointer ? module.type(type).element : type;
+}
+
+bool FunctionInfo::passed_uncopied(const Module& module, std::size_t parameter) const {
+  const Kind kind = module.type(parameter_type(module, parameter)).kind;
+  return (kind == Kind::array || kind == Kind::structure) && !written_parameters.count(parameter);
+}
+
     fold_conditionals(program.module, info.body);
     Gatherer(program, info).run();
     find_endless_loops(program, info);

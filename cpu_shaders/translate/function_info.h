@@ -24,6 +24,9 @@ struct FunctionInfo {
   bool is_reference(std::size_t parameter) const {
     return written_parameters.count(parameter) && returned_parameters.count(parameter);
   }
+  Id parameter_type(const Module& module, std::size_t parameter) const;  // of the value
+  // Structures and arrays that the function only reads are the caller's own.
+  bool passed_uncopied(const Module& module, std::size_t parameter) const;
 
   std::set<Id> globals_read, globals_written;  // private and output variables, callees' included
   bool mask_matters = false;                   // it has control flow or effects, or calls what has

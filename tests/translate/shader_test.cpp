@@ -5,13 +5,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "harness.h"
+#include "shader_checks.h"
 
 namespace twinshade {
-#define SHADER(name)                                                     \
-  extern const ShaderModule twinshade_module_shader_##name;              \
-  extern const ShaderEntry twinshade_entries_shader_##name##_baseline[]; \
-  extern const std::uint32_t twinshade_entry_count_shader_##name##_baseline;
 SHADER(swizzles)
 SHADER(discards)
 SHADER(memory)
@@ -23,23 +19,8 @@ SHADER(functions)
 SHADER(globals)
 SHADER(language)
 SHADER(whole_arrays)
-#undef SHADER
 
 namespace {
-
-int small_a(std::uint32_t i) { return static_cast<int>(i % 8); }
-int small_b(std::uint32_t i) { return static_cast<int>(i / 8 % 8); }
-
-double small_integers(const std::string& name, std::uint32_t, std::uint32_t i) {
-  return name == "a" ? small_a(i) : small_b(i);
-}
-
-constexpr Number kFloats[] = {Number::lanes4, Number::lanes8, Number::lanes16, Number::scalar};
-constexpr Number kAll[] = {Number::lanes4, Number::lanes8, Number::lanes16, Number::scalar, Number::float64};
-
-#define RUN(name, number, in)                                                            \
-  run_shader(twinshade_module_shader_##name, twinshade_entries_shader_##name##_baseline, \
-             twinshade_entry_count_shader_##name##_baseline, number, in)
 
 template <class... Values>
 void put(std::vector<std::byte>& bytes, std::size_t offset, Values... values) {
@@ -52,14 +33,6 @@ T get(const std::vector<std::byte>& bytes, std::size_t offset) {
   T value;
   std::memcpy(&value, &bytes.at(offset), sizeof value);
   return value;
-}
-
-// One line a value: which shader, number, invocation, output and component.
-void check_value(const Answer& answer, const char* output, std::size_t component, std::uint32_t i, double expected,
-                 Number number, double tolerance = 0) {
-  const double got = answer.outputs.at(output).at(component).at(i);
-  if (std::fabs(got - expected) <= tolerance) return;
-  CHECK_MESSAGE(got == expected, output, "[", component, "] of invocation ", i, " on ", number_name(number));
 }
 
 }  // namespace

@@ -1,0 +1,28 @@
+// Structures, arrays and matrices: passed, indexed, divided, chosen between, read before they are written. Expected
+// values are worked out here.
+#include <algorithm>
+
+#include "shader_checks.h"
+
+namespace twinshade {
+SHADER(arguments)
+
+TEST_CASE("a structure or array that is passed stays what it was while the callee writes the variable") {
+  Invocations in;
+  in.input = small_integers;
+  for (Number number : kAll) {
+    const Answer answer = RUN(arguments, number, in);
+    for (std::uint32_t i = 0; i < in.count; ++i) {
+      const int a = small_a(i), b = small_b(i);
+      const double expected[] = {a + 50.0, a + b * 100.0, 7.0 + b * 10 + a * 1000 + (a + 1) * 10000,
+                                 a != 3 ? b * 10.0 + a : a * 10.0 + b};
+      const double list[] = {1000, 1000, a + double(b), b + 2.0};
+      for (std::size_t c = 0; c < 4; ++c) {
+        check_value(answer, "answer", c, i, expected[c], number);
+        check_value(answer, "list", c, i, list[c], number);
+      }
+    }
+  }
+}
+
+}  // namespace twinshade

@@ -108,6 +108,13 @@ class ShaderBase {
     });
     return r;
   }
+  // Element `index`, brought into [0, count), of an array that starts at `first_component`.
+  template <class T, number::Integer E>
+  TWINSHADE_INLINE T input(std::uint32_t first_component, std::uint32_t components, int count,
+                           Plain<E, 1> index) const {
+    return input<T>(first_component +
+                    components * static_cast<std::uint32_t>(number::clamp_index(index.value(), count)));
+  }
   template <class T>
   TWINSHADE_INLINE void output(std::uint32_t first_component, const T& value) const {
     detail::for_each_component(value, first_component,

@@ -238,10 +238,9 @@ class ModuleEmitter {
     const Type& t = module_.type(g.type);
     if (t.kind != Kind::array) return;
     const std::string element = types_.name(t.element, true);
-    shared_.out.line(element + " " + g.name + "(UI i) const { return this->template input<" + element + ">(" +
-                     std::to_string(g.first_component) + " + " + std::to_string(module_.component_count(t.element)) +
-                     " * std::min<std::uint32_t>(static_cast<std::uint32_t>(i.value()), " +
-                     std::to_string(t.count - 1) + ")); }");
+    shared_.out.line(element + " " + g.name + "(auto i) const { return this->template input<" + element + ">(" +
+                     std::to_string(g.first_component) + ", " + std::to_string(module_.component_count(t.element)) +
+                     ", " + std::to_string(t.count) + ", i); }");
   }
 
   // Uniforms and small uniform blocks are read once, before all invocations.

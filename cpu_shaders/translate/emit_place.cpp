@@ -149,8 +149,7 @@ FunctionEmitter::Place FunctionEmitter::place(Id pointer) {
       if (!p.steps.empty() && module_.type(g.type).kind == Kind::array && !holds_structure(g.type) &&
           p.steps[0].kind != Step::Kind::varying_index) {
         const bool constant = p.steps[0].kind == Step::Kind::constant;
-        p.base.text =
-            g.name + "(" + (constant ? "UI(" + p.steps[0].text + ")" : "to_int(" + p.steps[0].text + ")") + ")";
+        p.base.text = g.name + "(" + (constant ? "UI(" + p.steps[0].text + ")" : p.steps[0].text) + ")";
         p.steps.erase(p.steps.begin());
       } else {
         p.base.text = g.name + "()";

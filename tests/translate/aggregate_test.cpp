@@ -6,6 +6,7 @@
 
 namespace twinshade {
 SHADER(arguments)
+SHADER(input_arrays)
 
 TEST_CASE("a structure or array that is passed stays what it was while the callee writes the variable") {
   Invocations in;
@@ -20,6 +21,29 @@ TEST_CASE("a structure or array that is passed stays what it was while the calle
       for (std::size_t c = 0; c < 4; ++c) {
         check_value(answer, "answer", c, i, expected[c], number);
         check_value(answer, "list", c, i, list[c], number);
+      }
+    }
+  }
+}
+
+TEST_CASE("an index outside an input array means the nearest element") {
+  Invocations in;
+  in.input = [](const std::string& name, std::uint32_t c, std::uint32_t i) -> double {
+    return name == "a" ? small_a(i) : 10.0 * (c + 1) + i;
+  };
+  in.uniforms["below"] = {-1};
+  in.uniforms["above"] = {3};
+  in.uniforms["far"] = {3e9f};
+  for (Number number : kAll) {
+    const Answer answer = RUN(input_arrays, number, in);
+    for (std::uint32_t i = 0; i < in.count; ++i) {
+      const int a = small_a(i);
+      const auto element = [&](int k) { return 10.0 * (std::min(std::max(k, 0), 2) + 1) + i; };
+      const double same[] = {element(0), element(2), element(2), element(0)};
+      const double own[] = {element(a - 1), element(2), element(2), element(a - 3)};
+      for (std::size_t c = 0; c < 4; ++c) {
+        check_value(answer, "same", c, i, same[c], number);
+        check_value(answer, "own", c, i, own[c], number);
       }
     }
   }

@@ -15,6 +15,7 @@
 #include "cpu_shaders/translate/find_recursion.h"
 #include "cpu_shaders/source/glslang_trial.h"
 #include "cpu_shaders/translate/limits.h"
+#include "cpu_shaders/translate/mark_divisions.h"
 #include "cpu_shaders/translate/source_lines.h"
 
 namespace twinshade {
@@ -96,6 +97,7 @@ std::vector<std::uint32_t> compile(const ShaderSource& source, int version, bool
   if (!shader.parse(GetDefaultResources(), 110, false, messages))
     throw UserError(first_glslang_error(source, shader.getInfoLog()));
   refuse_recursion(*shader.getIntermediate(), source);
+  mark_divisions(*shader.getIntermediate());
   glslang::TProgram program;
   program.addShader(&shader);
   if (!program.link(messages)) throw UserError(link_error(source, program.getInfoLog()));

@@ -2,6 +2,7 @@
 // * vec3(s), c ? a : b for a condition repeated over components. The result is no longer valid SPIR-V; we are its only
 // reader.
 #include <algorithm>
+#include <set>
 #include <unordered_map>
 
 #include "cpu_shaders/translate/function_info.h"
@@ -20,6 +21,7 @@ class Peephole {
     for (Block& b : function_.blocks)
       for (Instruction& i : b.code) {
         if (i.op == spv::OpCompositeConstruct) join_components(i);
+        if (i.op == spv::OpMatrixTimesScalar) divide(i);
         drop_splats(i);
       }
     remove_unused();
@@ -53,6 +55,19 @@ class Peephole {
     }
     i.operands = joined;
     if (joined.size() == 1 && module_.value_types.at(joined[0]) == i.type) i.op = spv::OpCopyObject;
+  }
+
+  // m * (1.0 / s) back into m / s, where it is glslang's doing (mark_divisions.h).
+  void divide(Instruction& i) {
+    const Instruction* d = definition(i.operands[1]);
+    if (d == nullptr || d->op != spv::OpFDiv || module_.decorations_of(d->result).has(spv::DecorationNoContraction))
+      return;
+    constexpr std::uint32_t kOne = 0x3f800000;
+    const auto dividend = module_.constants.find(d->operands[0]);
+    if (dividend == module_.constants.end() || dividend->second.bits != kOne) return;
+    reciprocals_.insert(d->result);
+    i.op = spv::OpFDiv;
+    i.operands[1] = d->operands[1];
   }
 
   // The scalar that every component of a vector is; 0 for none.
@@ -143,7 +158,7 @@ class Peephole {
       for (std::size_t k = b->code.size(); k-- > 0;) {
         const Instruction& i = b->code[k];
         const bool only_shapes = i.op == spv::OpCompositeExtract || i.op == spv::OpCompositeConstruct;
-        if (!only_shapes || uses[i.result] != 0) continue;
+        if ((!only_shapes && !reciprocals_.count(i.result)) || uses[i.result] != 0) continue;
         note(i, -1);
         b->code.erase(b->code.begin() + static_cast<std::ptrdiff_t>(k));
       }
@@ -152,6 +167,7 @@ class Peephole {
   Module& module_;
   Function& function_;
   std::unordered_map<Id, const Instruction*> definitions_;
+  std::set<Id> reciprocals_;  // of which divisions were made
 };
 
 }  // namespace

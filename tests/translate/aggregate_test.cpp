@@ -7,6 +7,7 @@
 namespace twinshade {
 SHADER(arguments)
 SHADER(input_arrays)
+SHADER(matrix_division)
 
 TEST_CASE("a structure or array that is passed stays what it was while the callee writes the variable") {
   Invocations in;
@@ -47,6 +48,30 @@ TEST_CASE("an index outside an input array means the nearest element") {
       }
     }
   }
+}
+
+namespace {
+// The values of matrix_division.frag in the arithmetic of Real.
+template <class Real>
+void check_divisions(Number number) {
+  Invocations in;
+  const auto v = [](std::uint32_t c, std::uint32_t i) { return static_cast<Real>(i * 4 + c + 1); };
+  in.input = [&](const std::string&, std::uint32_t c, std::uint32_t i) { return static_cast<double>(v(c, i)); };
+  in.uniforms["scale"] = {3};
+  const Answer answer = RUN(matrix_division, number, in);
+  for (std::uint32_t i = 0; i < in.count; ++i)
+    for (std::uint32_t c = 0; c < 4; ++c) {
+      check_value(answer, "divided", c, i, v(c, i) / v(0, i), number);
+      check_value(answer, "by_uniform", c, i, v(c, i) / Real(3), number);
+      check_value(answer, "times_reciprocal", c, i, v(c, i) * (Real(1) / v(0, i)), number);
+      check_value(answer, "assigned", c, i, v(c, i) / (v(0, i) + Real(1)), number);
+    }
+}
+}  // namespace
+
+TEST_CASE("a matrix is divided by a scalar, and multiplied by a reciprocal only where the shader says so") {
+  for (Number number : kFloats) check_divisions<float>(number);
+  check_divisions<double>(Number::float64);
 }
 
 }  // namespace twinshade

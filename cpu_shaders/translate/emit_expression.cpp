@@ -267,8 +267,9 @@ Expression FunctionEmitter::select(const Instruction& i) {
   std::string left = a.text, right = b.text;
   const bool a_varies = at_.is_varying(i.operands[1]), b_varies = at_.is_varying(i.operands[2]);
   // Aggregates of structs must be of one type; two uniform sides under a varying condition must become varying.
-  if (varying && ((!a_varies && !b_varies) || kind == Kind::structure || kind == Kind::array)) {
-    const std::string type = types_.name(i.type, true);
+  // So must arrays, which may be tables.
+  if (kind == Kind::array || (varying && ((!a_varies && !b_varies) || kind == Kind::structure))) {
+    const std::string type = types_.name(i.type, varying);
     if (!a_varies) left = type + "(" + left + ")";
     if (!b_varies && (kind == Kind::structure || kind == Kind::array)) right = type + "(" + right + ")";
   }
@@ -303,9 +304,9 @@ void FunctionEmitter::call(const Instruction& i) {
                 ";");
       a = Expression{name, 1, {}};
     }
-  }
     e.reads.insert(a.reads.begin(), a.reads.end());
     arguments.push_back(a.text);
+  }
   e.precedence = 1;
   e.text = callee.name + "(";
   for (std::size_t k = 0; k < arguments.size(); ++k) e.text += (k == 0 ? "" : ", ") + arguments[k];

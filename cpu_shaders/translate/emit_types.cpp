@@ -224,7 +224,9 @@ void TypeNames::write_structure(Writer& out, Id id) const {
     out.line("  requires(!std::same_as<K, V>)");
     out.line("TWINSHADE_INLINE constexpr operator " + own + "<V>() const { return {" + copies + "}; }");
   }
-  out.open("friend TWINSHADE_INLINE " + own + " select(const B& mask, const " + own + "& a, const " + own + "& b) {");
+  // The twin of uniform members is selected by a uniform mask: one for all lanes would make its members varying.
+  out.open("friend TWINSHADE_INLINE " + own + " select(const " + (both ? "auto" : "B") + "& mask, const " + own +
+           "& a, const " + own + "& b) {");
   out.line("return {" + selects + "};");
   out.close("}");
   out.close("};");

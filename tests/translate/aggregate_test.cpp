@@ -8,6 +8,7 @@ namespace twinshade {
 SHADER(arguments)
 SHADER(input_arrays)
 SHADER(matrix_division)
+SHADER(selections)
 
 TEST_CASE("a structure or array that is passed stays what it was while the callee writes the variable") {
   Invocations in;
@@ -72,6 +73,32 @@ void check_divisions(Number number) {
 TEST_CASE("a matrix is divided by a scalar, and multiplied by a reciprocal only where the shader says so") {
   for (Number number : kFloats) check_divisions<float>(number);
   check_divisions<double>(Number::float64);
+}
+
+TEST_CASE("structures and arrays are chosen between, uniform or not, tables or not") {
+  Invocations in;
+  in.input = small_integers;
+  in.uniforms["left"] = {1, 2, 3, 4};
+  in.uniforms["right"] = {5, 6, 7, 8};
+  for (const bool first : {false, true}) {
+    in.uniforms["u"] = {first ? 0.5f : -0.5f};
+    in.uniforms["n"] = {first ? 4.0f : 3.0f};
+    const double u = first ? 0.5 : -0.5;
+    for (Number number : kAll) {
+      const Answer answer = RUN(selections, number, in);
+      for (std::uint32_t i = 0; i < in.count; ++i) {
+        const int a = small_a(i), k = a & 3;
+        const double p = u + 10, q = 2 + u * 10;
+        const double structures[] = {first ? p : q, a > 3 ? p : q, first ? u : 2, 1};
+        const double arrays[] = {(first ? 1 : 5) + (k + 1) * 10.0, k + (a > 3 ? 1 : 5) + (k + 5) * 10.0,
+                                 first ? 2.0 : 6.0, a > 3 ? 3.0 : 7.0};
+        for (std::size_t c = 0; c < 4; ++c) {
+          check_value(answer, "structures", c, i, structures[c], number);
+          check_value(answer, "arrays", c, i, arrays[c], number);
+        }
+      }
+    }
+  }
 }
 
 }  // namespace twinshade

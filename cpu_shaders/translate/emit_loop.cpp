@@ -33,7 +33,7 @@ std::string escaped(const std::string& text) {
 
 std::string trimmed(const std::string& line) { return line.substr(line.find_first_not_of(' ')); }
 
-// Lines that can stand in the head of a `for`, joined by commas; false if they cannot.
+// Lines that declare nothing, joined by commas to stand in the head of a `for`; false if they cannot.
 bool as_increment(const std::vector<std::string>& lines, std::string& increment) {
   std::string text;
   for (const std::string& line : lines) {
@@ -41,7 +41,7 @@ bool as_increment(const std::vector<std::string>& lines, std::string& increment)
     text += (text.empty() ? "" : " ") + trimmed(line);
   }
   if (text.size() > 100) return false;
-  for (const char* word : {"const ", "{", "if (", "for (", "while ("})
+  for (const char* word : {"{", "if (", "for (", "while ("})
     if (text.find(word) != std::string::npos) return false;
   if (!text.empty() && text.back() == ';') text.pop_back();
   for (std::size_t at = text.find("; "); at != std::string::npos; at = text.find("; ")) text.replace(at, 2, ", ");
@@ -134,10 +134,13 @@ void FunctionEmitter::loop(const Statement& s) {
   names_.close();
 
   names_.open();
+  const auto declared = [&] { return variables_.size() + static_cast<std::size_t>(temporary_count_ + mask_count_); };
+  const std::size_t declared_before = declared();
   list(s.continuing, &s);
   std::string back;
   if (s.back_condition != 0) back = loop_condition(s, s.back_condition, s.back_inverted, own);
   flush();
+  const bool declares = declared() != declared_before;
   const std::vector<std::string> continuing = out_.take(mark);
   last_line_ = 0;  // what was written last may stand in the head, above the body
   names_.close();
@@ -145,7 +148,7 @@ void FunctionEmitter::loop(const Statement& s) {
   out_.outdent();
 
   std::string increment;
-  const bool simple = as_increment(continuing, increment);
+  const bool simple = !declares && as_increment(continuing, increment);
   const std::string open_for = "for (" + init + ";";
   if (s.back_condition != 0 && test == nullptr && simple && increment.empty()) {
     if (!init.empty()) out_.line(init + ";");

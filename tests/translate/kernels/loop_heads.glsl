@@ -1,0 +1,13 @@
+// Increments of loops that need variables of their own: elements that are passed, in the end of the head.
+void step(INOUT(int) x) { x += 1; }
+void step_both(INOUT(int) x, INOUT(int) y) { x += 2; y += x; }
+ivec4 kernel(int a, int b, float x, float y) {
+  int numbers[2];
+  numbers[0] = 0;
+  numbers[1] = a;
+  int sum = 0;
+  for (int k = 0; numbers[0] < 5; step(numbers[0])) { sum += numbers[0] * b; k++; }
+  for (int i = 0; i < b; step(numbers[1]), i++) { if (i == a) continue; sum += 3; }
+  for (int i = a; i < 9; step_both(i, numbers[0])) { if (sum > 40 + b) break; sum += i; }
+  return ivec4(numbers[0], numbers[1], sum, a);
+}

@@ -143,7 +143,23 @@ class Gatherer {
     }
   }
 
-  // Variables that are stored whole, once, with a constant, and else only read through loads.
+  // Finds the local variables that may be read without their store: elsewhere than later in its list of statements.
+  void find_early_reads(const List& list, std::set<Id>& stored, std::set<Id>& early) const {
+    std::vector<Id> stored_here;
+    for (const auto& s : list) {
+      for (const Instruction& i : s->code) {
+        for (Id id : value_operands(i))
+          if (is_local(module_, id) && i.op != spv::OpStore && !stored.count(id)) early.insert(id);
+        if (i.op == spv::OpStore && stored.insert(i.operands[0]).second) stored_here.push_back(i.operands[0]);
+      }
+      for (const List* inner : {&s->then_list, &s->else_list, &s->body, &s->continuing})
+        find_early_reads(*inner, stored, early);
+      for (const Case& c : s->cases) find_early_reads(c.body, stored, early);
+    }
+    for (Id id : stored_here) stored.erase(id);
+  }
+
+  // Variables that are stored whole, once, with a constant, and else only read through loads, later.
   void constant_tables() {
     std::map<Id, int> stores, other;
     std::map<Id, Id> constant;
@@ -157,9 +173,11 @@ class Gatherer {
           if (module_.value_types.count(id) && module_.type_of(id).kind == Kind::pointer) ++other[root_of(info_, id)];
       }
     });
+    std::set<Id> stored, early;
+    find_early_reads(info_.body.list, stored, early);
     for (Id v : info_.locals) {
       const Kind kind = module_.type(module_.variables.at(v).type).kind;
-      if (stores[v] == 1 && other[v] == 0 && constant.count(v) && kind == Kind::array)
+      if (stores[v] == 1 && other[v] == 0 && constant.count(v) && !early.count(v) && kind == Kind::array)
         info_.constant_tables[v] = constant[v];
     }
   }
@@ -225,6 +243,16 @@ bool FunctionInfo::pure() const {
   return true;
 }
 
+Id FunctionInfo::parameter_type(const Module& module, std::size_t parameter) const {
+  const Id type = function->parameters[parameter].type;
+  return module.type(type).kind == Kind::pointer ? module.type(type).element : type;
+}
+
+bool FunctionInfo::passed_uncopied(const Module& module, std::size_t parameter) const {
+  const Kind kind = module.type(parameter_type(module, parameter)).kind;
+  return (kind == Kind::array || kind == Kind::structure) && !written_parameters.count(parameter);
+}
+
 Id root_of(const FunctionInfo& info, Id pointer) {
   for (;;) {
     const auto found = info.definitions.find(pointer);
@@ -244,16 +272,6 @@ Program analyse(Module module) {
     complete_struct_copies(program.module, *info.function);
     simplify(program.module, *info.function);
     info.body = structure(program.module, *info.function);
-Id FunctionInfo::parameter_type(const Module& module, std::size_t parameter) const {
-  const Id type = function->parameters[parameter].type;
-  return module.type(type).kind == Kind::pointer ? module.type(type).element : type;
-}
-
-bool FunctionInfo::passed_uncopied(const Module& module, std::size_t parameter) const {
-  const Kind kind = module.type(parameter_type(module, parameter)).kind;
-  return (kind == Kind::array || kind == Kind::structure) && !written_parameters.count(parameter);
-}
-
     fold_conditionals(program.module, info.body);
     Gatherer(program, info).run();
     find_endless_loops(program, info);

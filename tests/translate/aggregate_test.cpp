@@ -9,6 +9,7 @@ SHADER(arguments)
 SHADER(input_arrays)
 SHADER(matrix_division)
 SHADER(selections)
+SHADER(unwritten)
 
 TEST_CASE("a structure or array that is passed stays what it was while the callee writes the variable") {
   Invocations in;
@@ -97,6 +98,20 @@ TEST_CASE("structures and arrays are chosen between, uniform or not, tables or n
           check_value(answer, "arrays", c, i, arrays[c], number);
         }
       }
+    }
+  }
+}
+
+TEST_CASE("arrays that are given a constant once are zero before it and where it is not reached") {
+  Invocations in;
+  in.input = small_integers;
+  in.uniforms["n"] = {0};
+  for (Number number : kAll) {
+    const Answer answer = RUN(unwritten, number, in);
+    for (std::uint32_t i = 0; i < in.count; ++i) {
+      const int a = small_a(i);
+      const double expected[] = {a > 3 ? 1.0 : 0.0, a > 3 ? 1.0 + (a & 1) : 0.0, 0, (a & 1) != 0 ? 20.0 : 10.0};
+      for (std::size_t c = 0; c < 4; ++c) check_value(answer, "answer", c, i, expected[c], number);
     }
   }
 }

@@ -105,12 +105,12 @@ TEST_CASE("uniforms of every kind are set by name, matrices by column") {
 
 TEST_CASE("inputs, outputs, uniforms and blocks may have names that became keywords after the shader's version") {
   const std::string text =
-      "#version 330\nin float patch; in vec2 buffer[2]; uniform vec2 subroutine;\n"
-      "uniform shared { float u; } precise;\nlayout(location = 0) out vec3 sample;\n"
-      "void main() { sample = vec3(subroutine * buffer[1] + patch, precise.u); }\n";
+      "#version 330\nin float patch; in vec2 buffer[2]; uniform vec2 precise;\n"
+      "uniform subroutine { float u; } block;\nlayout(location = 0) out vec3 sample;\n"
+      "void main() { sample = vec3(precise * buffer[1] + patch, block.u); }\n";
   ValueTable table{2, {}, {}, {}, {}};
   table.inputs = {floats("patch", "float", {1, 2}), floats("buffer", "vec2[2]", {0, 0, 3, 4, 0, 0, 5, 6})};
-  table.uniforms = {floats("subroutine", "vec2", {10, 100}), floats("shared.u", "float", {7})};
+  table.uniforms = {floats("precise", "vec2", {10, 100}), floats("subroutine.u", "float", {7})};
   const EvaluatedRows rows = same_everywhere(fragment(text), table);
   CHECK(rows.outputs.at(0).name == "sample");
   CHECK(value_at(rows.outputs[0], 1, 0) == 52);

@@ -6,11 +6,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string_view>
 
@@ -69,6 +71,36 @@ std::string identity_of(const std::vector<std::string>& command) {
   return identity + "\n" + run_program(question).output;
 }
 
+// Code would give other values, or could not be loaded into this process. Flags that follow the command undo most of
+// them; what was asked for is refused rather than ignored.
+bool is_unusable(std::string_view word) {
+  constexpr std::string_view kWords[] = {"-ffast-math",
+                                         "-Ofast",
+                                         "-funsafe-math-optimizations",
+                                         "-ffinite-math-only",
+                                         "-fassociative-math",
+                                         "-freciprocal-math",
+                                         "-fapprox-func",
+                                         "-fsingle-precision-constant",
+                                         "-mdaz-ftz",
+                                         "-mrecip",
+                                         "-fno-signed-zeros",
+                                         "-m32",
+                                         "-mx32",
+                                         "-m16"};
+  constexpr std::string_view kBeginnings[] = {"-fsanitize", "-ffp-model=", "-fdenormal-fp-math",
+                                              "-mrecip=", "-mfpmath="};
+  return std::ranges::find(kWords, word) != std::end(kWords) ||
+         std::ranges::any_of(kBeginnings, [&](std::string_view beginning) { return word.starts_with(beginning); });
+}
+
+void refuse_unusable(const std::vector<std::string>& command, const std::string& given, bool by_environment) {
+  for (const std::string& word : command)
+    if (is_unusable(word))
+      throw UserError(fmt::format("{}{}: {} makes shaders that give other values or cannot be loaded; leave it out",
+                                  by_environment ? "CXX=" : "", given, word));
+}
+
 }  // namespace
 
 Compiler find_compiler(const std::string& asked) {
@@ -79,6 +111,7 @@ Compiler find_compiler(const std::string& asked) {
   for (const std::string& candidate : candidates) {
     std::vector<std::string> command{candidate};
     if (find_program(candidate).empty()) command = words_of(candidate);
+    refuse_unusable(command, candidate, by_environment);
     command[0] = find_program(command[0]);
     if (!command[0].empty()) return {command, identity_of(command)};
   }

@@ -13,7 +13,8 @@ struct Compiler {
 
 // asked: a name or path, perhaps with words after it ("ccache g++"); empty: the first of $CXX, clang++, g++, c++ that
 // is there. clang++ comes before g++ since it makes as fast code in two thirds of the time. UserError where there is
-// none, or where the one asked for, by argument or by $CXX, is not there: another one would be a surprise.
+// none, or where the one asked for, by argument or by $CXX, is not there (another one would be a surprise) or has words
+// after it that change values or make what cannot be loaded (-ffast-math, -fsanitize=address, -m32).
 Compiler find_compiler(const std::string& asked = {});
 
 struct ProgramResult {

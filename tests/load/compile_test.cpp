@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 
 #include <bit>
+#include <cmath>
 #include <thread>
 #include <vector>
 
@@ -189,6 +190,37 @@ TEST_CASE("a compiler asked for by name or by CXX is the one, or none") {
   const TestVariable cxx("CXX", "no-such-compiler");
   CHECK_THROWS_WITH_AS(find_compiler(), doctest::Contains("CXX=no-such-compiler"), UserError);
   CHECK_THROWS_WITH_AS(find_compiler("nor-this"), doctest::Contains("nor-this"), UserError);
+}
+
+TEST_CASE("words in CXX that change values, or make what cannot be loaded, are refused by name") {
+  shared_cache();
+  const std::string compiler = find_compiler().command[0];
+  for (const char* word : {"-ffast-math", "-Ofast", "-funsafe-math-optimizations", "-ffinite-math-only",
+                           "-fassociative-math", "-freciprocal-math", "-fno-signed-zeros", "-fsanitize=address",
+                           "-fsanitize-recover=all", "-ffp-model=fast", "-mfpmath=387", "-m32"}) {
+    const std::string given = compiler + " -O3 " + word;
+    const TestVariable cxx("CXX", given.c_str());
+    const std::string message = message_of([] { compile("r = a.x;"); });
+    CHECK(message ==
+          "CXX=" + given + ": " + word + " makes shaders that give other values or cannot be loaded; leave it out");
+  }
+  const TestVariable cxx("CXX", (compiler + " -O3 -march=x86-64 -Wall").c_str());
+  CHECK(find_compiler().command.size() == 4);
+}
+
+TEST_CASE("what a wrapper adds before the flags changes no value") {
+  const TestCache cache;
+  for (const char* compiler : {"g++", "clang++"}) {
+    if (message_of([&] { find_compiler(compiler); }) != "no error") continue;  // not here
+    const std::string real = find_compiler(compiler).command[0];
+    for (const char* flags : {"-O3 -ffast-math", "-Ofast", "-funsafe-math-optimizations", "-ffinite-math-only",
+                              "-fassociative-math -fno-signed-zeros", "-freciprocal-math", "-fsanitize=address"}) {
+      const std::string wrapper = cache.folder + "/wrapper";
+      write_program(wrapper, "#!/bin/sh\nexec " + real + " " + flags + " \"$@\"\n");
+      const std::string object = compile("r = (a.x + a.y) - a.y + (isnan(a.z) ? 1.0 : 0.0);", wrapper);
+      CHECK_MESSAGE(run(object, 1, 1e10, std::nan("")) == 1, std::string(compiler) + " " + flags);
+    }
+  }
 }
 
 TEST_CASE("a wrapper is known by the compiler behind it") {

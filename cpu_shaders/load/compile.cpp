@@ -12,6 +12,7 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "cpu_shaders/load/load.h"
+#include "cpu_shaders/load/run_program.h"
 #include "cpu_shaders/load/runtime_files.h"
 #include "cpu_shaders/load/source_index.h"
 #include "cpu_shaders/machine.h"
@@ -38,7 +39,7 @@ ProgramResult link(const Compiler& compiler, const std::vector<std::string>& fla
   command.emplace_back("-shared");
   command.insert(command.end(), inputs.begin(), inputs.end());
   command.insert(command.end(), {"-o", target});
-  return run_program(command);
+  return run_program(command, kCompileTime, target);
 }
 
 void build(const std::string& text, const Compiler& compiler, const CompileOptions& options,
@@ -49,7 +50,7 @@ void build(const std::string& text, const Compiler& compiler, const CompileOptio
   const PreparedRuntime prepared = prepare_runtime(runtime, compiler, flags);
   write_file(source, text);
   ProgramResult result = link(compiler, flags, {"-include", prepared.header, source, prepared.portable_math}, target);
-  if (result.status != 0) {  // the shader's fault, or the prepared runtime's?
+  if (result.status != 0 && !result.timed_out) {  // the shader's fault, or the prepared runtime's?
     result = link(compiler, flags, {source, runtime + "/base/portable_math.cpp"}, target);
     if (result.status == 0) discard_prepared(prepared);
   }

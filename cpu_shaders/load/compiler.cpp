@@ -1,15 +1,10 @@
 #include "cpu_shaders/load/compiler.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -17,8 +12,7 @@
 #include <string_view>
 
 #include "base/error.h"
-
-extern char** environ;
+#include "cpu_shaders/load/run_program.h"
 
 namespace twinshade {
 namespace {
@@ -58,7 +52,7 @@ bool is_compiler_itself(const fs::path& program) {
 
 // Path, size and time stand for a compiler's version, since asking it takes longer than loading a cached shader.
 // Wrappers are asked.
-std::string identity_of(const std::vector<std::string>& command) {
+std::string identity_of(const std::vector<std::string>& command, std::chrono::milliseconds patience) {
   std::string identity = fmt::format("{}", fmt::join(command, " "));
   std::error_code code;
   const fs::path real = fs::canonical(command[0], code);
@@ -68,7 +62,11 @@ std::string identity_of(const std::vector<std::string>& command) {
   if (command.size() == 1 && is_compiler_itself(real)) return identity;
   std::vector<std::string> question = command;
   question.emplace_back("--version");
-  return identity + "\n" + run_program(question).output;
+  const ProgramResult answer = run_program(question, patience);
+  if (answer.timed_out)
+    throw UserError(fmt::format("{} does not answer within {} s; set CXX to a C++ compiler that works",
+                                fmt::join(question, " "), patience.count() / 1000));
+  return identity + "\n" + answer.output;
 }
 
 // Code would give other values, or could not be loaded into this process. Flags that follow the command undo most of
@@ -103,7 +101,7 @@ void refuse_unusable(const std::vector<std::string>& command, const std::string&
 
 }  // namespace
 
-Compiler find_compiler(const std::string& asked) {
+Compiler find_compiler(const std::string& asked, std::chrono::milliseconds patience) {
   const char* cxx = std::getenv("CXX");
   const bool by_environment = asked.empty() && cxx && !words_of(cxx).empty();
   std::vector<std::string> candidates{"clang++", "g++", "c++"};
@@ -113,42 +111,12 @@ Compiler find_compiler(const std::string& asked) {
     if (find_program(candidate).empty()) command = words_of(candidate);
     refuse_unusable(command, candidate, by_environment);
     command[0] = find_program(command[0]);
-    if (!command[0].empty()) return {command, identity_of(command)};
+    if (!command[0].empty()) return {command, identity_of(command, patience)};
   }
   throw UserError(
       fmt::format("no C++ compiler found (tried {}{}): shaders, lanes and numbers that are not built in need one; {}",
                   by_environment ? "CXX=" : "", fmt::join(candidates, ", "),
                   by_environment ? "set CXX to one that is there, or unset it" : "install g++ or clang, or set CXX"));
-}
-
-ProgramResult run_program(const std::vector<std::string>& words) {
-  // Limits are inherited: by the compiler proper, which the command starts.
-  static const std::string limits = "ulimit -t 300 2>/dev/null; ulimit -v 4194304 2>/dev/null; exec \"$@\"";
-  std::vector<char*> arguments;
-  for (const char* word : {"/bin/sh", "-c", limits.c_str(), "sh"}) arguments.push_back(const_cast<char*>(word));
-  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) return {-1, std::string("no pipe: ") + std::strerror(errno)};
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], 1);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], 2);
-  pid_t child = 0;
-  const int error = posix_spawn(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  close(ends[1]);
-  ProgramResult result{-1, error == 0 ? "" : std::string("cannot be started: ") + std::strerror(error)};
-  char buffer[4096];
-  for (ssize_t count; (count = read(ends[0], buffer, sizeof buffer)) != 0 && (count > 0 || errno == EINTR);)
-    if (count > 0) result.output.append(buffer, std::size_t(count));
-  close(ends[0]);
-  if (error != 0) return result;
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  if (WIFEXITED(status)) result.status = WEXITSTATUS(status);
-  return result;
 }
 
 }  // namespace twinshade

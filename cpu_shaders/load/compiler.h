@@ -1,6 +1,7 @@
 // The system's C++ compiler.
 #pragma once
 
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -15,13 +16,7 @@ struct Compiler {
 // is there. clang++ comes before g++ since it makes as fast code in two thirds of the time. UserError where there is
 // none, or where the one asked for, by argument or by $CXX, is not there (another one would be a surprise) or has words
 // after it that change values or make what cannot be loaded (-ffast-math, -fsanitize=address, -m32).
-Compiler find_compiler(const std::string& asked = {});
-
-struct ProgramResult {
-  int status;          // exit status; -1: could not be started, or was killed
-  std::string output;  // stdout and stderr
-};
-// Runs words[0], a path, and waits for it. It and what it starts may take 300 s of processor time and 4 GiB of addresses each.
-ProgramResult run_program(const std::vector<std::string>& words);
+// patience: for a wrapper's answer to --version; UserError where it has none by then.
+Compiler find_compiler(const std::string& asked = {}, std::chrono::milliseconds patience = std::chrono::seconds(20));
 
 }  // namespace twinshade

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "cpu_shaders/load/open.h"
+#include "cpu_shaders/load/runtime_files.h"
 
 namespace twinshade {
 namespace {
@@ -28,6 +29,8 @@ void load_unit(std::span<const std::string> cpp, const CompileOptions& options, 
   try {
     const std::string object = compile_shader(unit_text(cpp), options);
     for (std::size_t k = 0; k < cpp.size(); ++k) modules[k].module = &open_module(object, numbered(kModuleSymbol, k));
+  } catch (const CompilerTimeout& error) {  // one by one they would wait as long each
+    for (BatchModule& module : modules) module.error = error.what();
   } catch (const UserError& error) {
     if (cpp.size() == 1) {
       modules[0].error = error.what();

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <future>
+#include <map>
 #include <mutex>
 #include <span>
 
@@ -45,7 +46,28 @@ void compile_part(const Compiler& compiler, const std::vector<std::string>& flag
   command.insert(command.end(), flags.begin(), flags.end());
   command.insert(command.end(), files.begin(), files.end());
   command.insert(command.end(), {"-o", target});
-  require_made(target, compiler, run_program(command), "the runtime of translated shaders");
+  require_made(target, compiler, run_program(command, kCompileTime, target), "the runtime of translated shaders");
+}
+
+// Side by side: the first shader of all waits for both.
+void make_parts(const PreparedRuntime& prepared, const std::string& runtime, const Compiler& compiler,
+                const std::vector<std::string>& flags) {
+  std::future<void> math = std::async(std::launch::async, [&] {
+    if (is_sealed(prepared.portable_math)) return;
+    write_cached_with(prepared.portable_math, [&](const std::string& temporary) {
+      compile_part(compiler, flags, {"-c", runtime + "/base/portable_math.cpp"}, temporary);
+      seal(temporary);
+    });
+  });
+  // clang++ makes it in a second and saves half of each shader's; g++ takes five times what it saves.
+  const bool is_clang = compiler.identity.find("clang") != std::string::npos;
+  if (const std::string precompiled = prepared.header + ".gch"; is_clang && !matches_hash_file(precompiled)) {
+    write_cached_with(precompiled, [&](const std::string& temporary) {
+      compile_part(compiler, flags, {"-x", "c++-header", prepared.header}, temporary);
+      write_cached(precompiled + ".sha256", sha256_hex(read_file(temporary)));
+    });
+  }
+  math.get();
 }
 
 }  // namespace
@@ -87,23 +109,14 @@ PreparedRuntime prepare_runtime(const std::string& runtime, const Compiler& comp
   std::error_code code;
   if (!fs::is_regular_file(prepared.header, code))
     write_cached(prepared.header, "#include \"cpu_shaders/runtime/runtime.h\"\n");
-  // Side by side: the first shader of all waits for both.
-  std::future<void> math = std::async(std::launch::async, [&] {
-    if (is_sealed(prepared.portable_math)) return;
-    write_cached_with(prepared.portable_math, [&](const std::string& temporary) {
-      compile_part(compiler, flags, {"-c", runtime + "/base/portable_math.cpp"}, temporary);
-      seal(temporary);
-    });
-  });
-  // clang++ makes it in a second and saves half of each shader's; g++ takes five times what it saves.
-  const bool is_clang = compiler.identity.find("clang") != std::string::npos;
-  if (const std::string precompiled = prepared.header + ".gch"; is_clang && !matches_hash_file(precompiled)) {
-    write_cached_with(precompiled, [&](const std::string& temporary) {
-      compile_part(compiler, flags, {"-x", "c++-header", prepared.header}, temporary);
-      write_cached(precompiled + ".sha256", sha256_hex(read_file(temporary)));
-    });
+  static std::map<std::string, std::string> timed_out;  // by key: its error
+  if (const auto before = timed_out.find(key); before != timed_out.end()) throw CompilerTimeout(before->second);
+  try {
+    make_parts(prepared, runtime, compiler, flags);
+  } catch (const CompilerTimeout& error) {
+    timed_out[key] = error.what();
+    throw;
   }
-  math.get();
   return prepared;
 }
 
@@ -117,6 +130,10 @@ void require_made(const std::string& made, const Compiler& compiler, const Progr
   std::error_code code;
   if (result.status == 0 && fs::is_regular_file(made, code)) return;
   const std::string command = fmt::format("{}", fmt::join(compiler.command, " "));
+  if (result.timed_out)
+    throw CompilerTimeout(
+        fmt::format("{} cannot compile {}: it has not ended within {} s; set CXX to a C++ compiler that works", command,
+                    what, kCompileTime.count()));
   const std::string said = first_complaint(result.output);
   if (result.status != 0 && !said.empty())
     throw UserError(fmt::format("{} cannot compile {} (status {}): {}", command, what, result.status, said));

@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "cpu_shaders/load/compiler.h"
+#include "cpu_shaders/load/run_program.h"
 
 namespace twinshade {
 
@@ -27,6 +29,12 @@ PreparedRuntime prepare_runtime(const std::string& runtime, const Compiler& comp
 // Removes what prepare_runtime made: a compiler that refuses its own precompiled header (a file under it changed) gets
 // a new one.
 void discard_prepared(const PreparedRuntime& prepared);
+
+// The compiler was waited for in vain: nobody should wait for it again for the same thing.
+class CompilerTimeout : public UserError {
+ public:
+  using UserError::UserError;
+};
 
 // UserError, one line, unless the command succeeded and there is a file `made`: the command's first complaint, or that
 // it had none. what: was to be compiled.

@@ -110,7 +110,8 @@ std::string cache_folder() {
   fs::path folder;
   if (const char* own = std::getenv("TWINSHADE_CACHE"); own && *own)
     folder = own;
-  else if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg && *xdg)
+  else if (const char* xdg = std::getenv("XDG_CACHE_HOME");
+           xdg && *xdg == '/')  // its specification: others are ignored
     folder = fs::path(xdg) / "twinshade";
   else if (const char* home = std::getenv("HOME"); home && *home)
     folder = fs::path(home) / ".cache" / "twinshade";

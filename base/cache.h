@@ -12,8 +12,9 @@
 
 namespace twinshade {
 
-// $TWINSHADE_CACHE, else $XDG_CACHE_HOME/twinshade, else ~/.cache/twinshade. Created if missing. UserError where there
-// is none of them, it cannot be created, or TWINSHADE_CACHE_SIZE is no size: whoever asks is about to use the cache.
+// $TWINSHADE_CACHE, else $XDG_CACHE_HOME/twinshade where that is absolute, else ~/.cache/twinshade. Created if missing.
+// UserError where there is none of them, it cannot be created, or TWINSHADE_CACHE_SIZE is no size: whoever asks is
+// about to use the cache.
 std::string cache_folder();
 
 // UserError where nothing can be added to the cache: to be asked before work whose result goes there.

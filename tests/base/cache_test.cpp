@@ -101,6 +101,21 @@ TEST_CASE("temporaries of processes that were killed go, those of living ones st
   for (const std::string& path : {young_within, whole, theirs}) CHECK_MESSAGE(fs::exists(path), path);
 }
 
+TEST_CASE("a relative XDG_CACHE_HOME is ignored") {
+  const Cache cache;
+  const char* const names[] = {"HOME", "XDG_CACHE_HOME"};
+  std::vector<std::string> before;
+  for (const char* name : names) before.emplace_back(std::getenv(name) ? std::getenv(name) : "");
+  unsetenv("TWINSHADE_CACHE");
+  setenv("HOME", cache.folder.c_str(), 1);
+  setenv("XDG_CACHE_HOME", "relative", 1);
+  CHECK(cache_folder() == cache.folder + "/.cache/twinshade");
+  CHECK(!fs::exists("relative"));
+  setenv("XDG_CACHE_HOME", (cache.folder + "/xdg").c_str(), 1);
+  CHECK(cache_folder() == cache.folder + "/xdg/twinshade");
+  for (std::size_t k = 0; k < 2; ++k) before[k].empty() ? unsetenv(names[k]) : setenv(names[k], before[k].c_str(), 1);
+}
+
 TEST_CASE("the size of the cache is read with its unit, and nonsense is refused by name") {
   const Cache cache;
   CHECK(cache_size_limit() == std::uint64_t{2} << 30);

@@ -5,11 +5,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <future>
 #include <map>
 #include <mutex>
 #include <span>
+#include <string_view>
 
 #include "base/cache.h"
 #include "base/embedded_file.h"
@@ -38,6 +40,15 @@ std::string first_complaint(const std::string& output) {
   const std::size_t begin =
       error == std::string::npos ? output.find_first_not_of(" \n") : output.rfind('\n', error) + 1;
   return begin == std::string::npos ? "" : output.substr(begin, output.find('\n', begin) - begin);
+}
+
+// A compiler that crashed, or met the limits of run_program, says nothing that could be put right in the source.
+bool broke_down(const ProgramResult& result) {
+  constexpr std::string_view kSigns[] = {"unable to execute command", "internal compiler error", "terminated program",
+                                         "out of memory", "memory exhausted"};
+  return result.status < 0 || std::ranges::any_of(kSigns, [&](std::string_view sign) {
+           return result.output.find(sign) != std::string::npos;
+         });
 }
 
 void compile_part(const Compiler& compiler, const std::vector<std::string>& flags,
@@ -136,7 +147,10 @@ void require_made(const std::string& made, const Compiler& compiler, const Progr
                     what, kCompileTime.count()));
   const std::string said = first_complaint(result.output);
   if (result.status != 0 && !said.empty())
-    throw UserError(fmt::format("{} cannot compile {} (status {}): {}", command, what, result.status, said));
+    throw UserError(fmt::format("{} cannot compile {} (status {}): {}{}", command, what, result.status, said,
+                                broke_down(result) ? "; perhaps it is too large for the compiler: split it up, or set "
+                                                     "CXX to another one"
+                                                   : ""));
   std::string end = "made no object, though its exit code is 0";
   if (result.status > 0) end = fmt::format("failed with exit code {} and no message", result.status);
   if (result.status < 0) end = "was killed, with no message";

@@ -260,6 +260,21 @@ TEST_CASE("a compiler that makes nothing, or fails without a word, is named with
   CHECK(files_named(cache.folder, ".so").empty());
 }
 
+TEST_CASE("a compiler that crashes is said to be perhaps too small for the shader, and its report goes") {
+  const TestCache cache, temporaries;
+  const TestVariable own("TWINSHADE_CACHE", cache.folder.c_str()), folder("TMPDIR", temporaries.folder.c_str());
+  const std::string compiler = cache.folder + "/compiler";
+  write_program(compiler,
+                "#!/bin/sh\necho x > $TMPDIR/report.cpp\n"
+                "echo 'clang: error: unable to execute command: Segmentation fault' >&2\nexit 254\n");
+  const std::string message = message_of([&] { compile("r = a.x;", compiler); });
+  CHECK_MESSAGE(
+      message.ends_with("(status 254): clang: error: unable to execute command: Segmentation fault; perhaps it "
+                        "is too large for the compiler: split it up, or set CXX to another one"),
+      message);
+  CHECK(fs::is_empty(temporaries.folder));
+}
+
 TEST_CASE("entries of the cache of the wrong kind are built again") {
   const TestCache cache;
   const std::string object = compile("r = a.x;");

@@ -8,7 +8,7 @@
 namespace twinshade {
 
 // The object stays loaded until the process ends. UserError naming `path` where it cannot be loaded or has no such
-// symbol.
+// symbol; the file is removed then.
 const ShaderModule& open_module(const std::string& path, const std::string& symbol);
 
 }  // namespace twinshade

@@ -13,6 +13,7 @@
 #include "cpu_shaders/load/compiler.h"
 #include "cpu_shaders/load/host_eval.h"
 #include "cpu_shaders/load/load.h"
+#include "cpu_shaders/load/open.h"
 #include "cpu_shaders/load/source_index.h"
 #include "cpu_shaders/machine.h"
 #include "cpu_shaders/translate/translate.h"
@@ -273,6 +274,18 @@ TEST_CASE("a compiler that crashes is said to be perhaps too small for the shade
                         "is too large for the compiler: split it up, or set CXX to another one"),
       message);
   CHECK(fs::is_empty(temporaries.folder));
+}
+
+TEST_CASE("an object that cannot be loaded goes, and its compiler is to be replaced") {
+  const TestCache cache;
+  const std::string compiler = cache.folder + "/compiler";
+  write_program(compiler,
+                "#!/bin/sh\nwhile [ $# -gt 0 ]; do if [ \"$1\" = -o ]; then echo garbage > \"$2\"; fi; shift; done\n");
+  const std::string object = compile("r = a.x;", compiler);
+  const std::string message = message_of([&] { open_module(object, kModuleSymbol); });
+  CHECK_MESSAGE(message.find(object + ": compiled shader cannot be loaded: ") == 0, message);
+  CHECK_MESSAGE(message.ends_with("; it was removed; set CXX to a C++ compiler that works"), message);
+  CHECK(!fs::exists(object));
 }
 
 TEST_CASE("entries of the cache of the wrong kind are built again") {

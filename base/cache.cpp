@@ -26,7 +26,8 @@ namespace fs = std::filesystem;
 using Clock = fs::file_time_type::clock;
 
 constexpr std::chrono::minutes kInUse{1};
-constexpr std::chrono::hours kAbandoned{1};  // temporaries of a process that was killed
+constexpr std::chrono::minutes kCompiling{30};  // runtime-*: two compilations, as long as each may take, read from it
+constexpr std::chrono::hours kAbandoned{1};     // temporaries of a process that was killed
 constexpr std::uint64_t kDefaultLimit = std::uint64_t{2} << 30;
 
 struct Entry {
@@ -58,6 +59,10 @@ bool is_entry(const std::string& name) {
     return std::min(end, name.size()) - kind.size() >= 16;
   }
   return false;
+}
+
+std::chrono::minutes use_time(const Entry& entry) {
+  return entry.path.filename().string().starts_with("runtime-") ? kCompiling : kInUse;
 }
 
 bool is_abandoned(const std::string& name, fs::file_time_type::duration age) {
@@ -186,7 +191,7 @@ void trim_cache() {
   for (const Entry& entry : entries) {
     const auto age = now - entry.used;
     const bool abandoned = is_abandoned(entry.path.filename().string(), age);
-    if (!abandoned && (total <= limit || age < kInUse)) continue;
+    if (!abandoned && (total <= limit || age < use_time(entry))) continue;
     std::error_code ignored;
     fs::remove_all(entry.path, ignored);
     total -= entry.size;

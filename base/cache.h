@@ -35,9 +35,10 @@ std::uint64_t cache_size_limit();
 // Marks an entry as used now.
 void touch_cached(const std::string& path);
 
-// Removes the least recently used entries until the limit is met. Entries used within the last minute stay: another
-// process may be about to read them. Temporaries that are older than an hour go, from folders of the cache, too. To be
-// called after something was added; what cannot be removed is left.
+// Removes the least recently used entries until the limit is met. Entries used within the last minute stay, runtimes
+// for half an hour: another process may be about to read them, a compiler may be reading all the time. Temporaries that
+// are older than an hour go, from folders of the cache, too. To be called after something was added; what cannot be
+// removed is left.
 void trim_cache();
 
 // A sealed file ends in the SHA-256 of what is before it, as hex digits, so that a damaged one is seen. Loaders of

@@ -75,6 +75,18 @@ TEST_CASE("what was used a moment ago stays, however small the limit") {
   CHECK(!fs::exists(old));
 }
 
+TEST_CASE("a runtime stays as long as compilers may read from it") {
+  const Cache cache;
+  const std::string name = "runtime-" + kKey, path = cache.folder + "/" + name;
+  cache.add(name + "/base/a.h", 1000, kNow);
+  setenv("TWINSHADE_CACHE_SIZE", "0", 1);
+  for (const int minutes : {20, 40}) {
+    fs::last_write_time(path, fs::file_time_type::clock::now() - std::chrono::minutes(minutes));
+    trim_cache();
+    CHECK(fs::exists(path) == (minutes == 20));
+  }
+}
+
 TEST_CASE("a cache in a folder with other files leaves them alone") {
   const Cache cache;
   setenv("TWINSHADE_CACHE_SIZE", "0", 1);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "cpu_shaders/translate/limits.h"
 
 namespace twinshade::spirv {
 namespace {
@@ -30,6 +31,8 @@ class Analysis {
     for (;;) {
       result_ = Instances{};
       result_.varying_globals = globals;
+      sizes_.clear();
+      copied_ = 0;
       result_.main = &instance(module_.entry, {}, true);
       if (result_.varying_globals == globals) break;
       globals = result_.varying_globals;
@@ -51,6 +54,7 @@ class Analysis {
   Instance& instance(Id function, const std::vector<bool>& varying_in, bool whole) {
     auto& slot = result_.all[{function, varying_in, whole}];
     if (slot) return *slot;
+    count_copy(program_.info(function));
     auto fresh = std::make_unique<Instance>();
     fresh->info = &program_.info(function);
     fresh->varying_in = varying_in;
@@ -58,6 +62,19 @@ class Analysis {
     Walker(*this, *fresh).run();
     slot = std::move(fresh);
     return *slot;
+  }
+
+  // Functions with many parameters can have more patterns than a compiler takes.
+  void count_copy(const FunctionInfo& info) {
+    std::size_t& size = sizes_[info.function->id];
+    if (size != 0 && (copied_ += size) > kMostCopied)
+      throw UserError(module_.position(info.function->file, info.function->line).text() + ": " + info.function->name +
+                      "() and others are called with too many patterns of arguments of which some are the same for all "
+                      "invocations: their copies have more than " +
+                      std::to_string(kMostCopied) + " instructions; pass fewer arguments");
+    if (size != 0) return;
+    size = 1;
+    for_each_instruction(info.body.list, [&](const Instruction&) { ++size; });
   }
 
   class Walker {
@@ -338,6 +355,8 @@ class Analysis {
   const Program& program_;
   const Module& module_;
   Instances result_;
+  std::map<Id, std::size_t> sizes_;  // instructions of the functions that have an instance
+  std::size_t copied_ = 0;           // instructions of all instances but each function's first
 };
 
 }  // namespace

@@ -11,6 +11,8 @@ inline constexpr std::size_t kMostText = 4 << 20;  // bytes with all includes
 inline constexpr int kMostNesting = 200;
 // Numbers in all variables together, tables of constants apart: 2 MiB of stack with sixteen lanes.
 inline constexpr std::uint64_t kMostNumbers = 32768;
+// Instructions of functions that are written again for arguments that vary otherwise than in the first call.
+inline constexpr std::size_t kMostCopied = 1 << 20;
 // Iterations and calls that a loop may make in all without counting them while it runs.
 inline constexpr std::uint64_t kMostUncounted = 1 << 16;
 // Calls and iterations that a program may be known to make.

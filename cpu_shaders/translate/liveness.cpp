@@ -8,7 +8,7 @@
 namespace twinshade::spirv {
 namespace {
 
-using Set = std::set<Id>;
+using Set = IdSet;
 
 class Liveness {
  public:
@@ -33,7 +33,7 @@ class Liveness {
       case Shape::choice: {
         s.live_else = before(s.else_list, live);
         Set result = before(s.then_list, live);
-        result.insert(s.live_else.begin(), s.live_else.end());
+        result.insert(s.live_else);
         return result;
       }
       case Shape::loop:
@@ -55,14 +55,16 @@ class Liveness {
   }
 
   Set loop(Statement& s, const Set& after) {
-    Set head;
+    // Sets only grow from one visit to the next: what the last one found is a start, lest the time double with each
+    // loop around this one.
+    Set head = s.live_head;
     for (;;) {
       Set back = head;
-      if (s.back_condition != 0) back.insert(after.begin(), after.end());
+      if (s.back_condition != 0) back.insert(after);
       s.live_continuing = before(s.continuing, back);
       Set next = before(s.body, s.live_continuing);
       if (next == head) return s.live_head = head;
-      next.insert(head.begin(), head.end());
+      next.insert(head);
       head = std::move(next);
     }
   }
@@ -75,9 +77,9 @@ class Liveness {
       Case& c = s.cases[k];
       has_default |= c.is_default;
       s.live_cases[k] = before(c.body, c.falls_through ? s.live_cases[k + 1] : after);
-      result.insert(s.live_cases[k].begin(), s.live_cases[k].end());
+      result.insert(s.live_cases[k]);
     }
-    if (!has_default) result.insert(after.begin(), after.end());
+    if (!has_default) result.insert(after);
     return result;
   }
 

@@ -5,7 +5,7 @@
 #include <set>
 #include <vector>
 
-#include "cpu_shaders/translate/spirv_module.h"
+#include "cpu_shaders/translate/id_set.h"
 
 namespace twinshade::spirv {
 
@@ -55,8 +55,8 @@ struct Statement {
 
   // Filled by liveness (variables whose value may still be read): after the statement, at the start of the else branch,
   // of a loop's `continuing` and body, of each case.
-  std::set<Id> live_after, live_else, live_continuing, live_head;
-  std::vector<std::set<Id>> live_cases;
+  IdSet live_after, live_else, live_continuing, live_head;
+  std::vector<IdSet> live_cases;
 };
 
 struct Body {

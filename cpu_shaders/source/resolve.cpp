@@ -117,6 +117,9 @@ class Resolver {
       const std::string where = file.shown + ":" + std::to_string(line.number) + ": ";
       if (line.directive == "if" || line.directive == "ifdef" || line.directive == "ifndef") ++conditional_depth_;
       if (line.directive == "endif") --conditional_depth_;
+      if (line.directive == "extension" && is_intrinsics(line.arguments) && is_read())
+        throw UserError(where + "#extension " + line.arguments +
+                        " is not supported: what it adds to the language is not translated; leave it out");
       if (line.directive == "include") {
         include(file, line, where);
       } else if (line.directive == "version") {
@@ -164,6 +167,11 @@ class Resolver {
          {"GL_GOOGLE_include_directive", "GL_GOOGLE_cpp_style_line_directive", "GL_ARB_shading_language_include"})
       if (arguments.compare(0, std::string(name).size(), name) == 0) return true;
     return false;
+  }
+
+  // What it declares would be glslang's alone: the lint's parser knows no such functions, nor does OpenGL.
+  static bool is_intrinsics(const std::string& arguments) {
+    return find_word(arguments, "GL_EXT_spirv_intrinsics") == 0 && find_word(arguments, "disable") == arguments.npos;
   }
 
   static std::string quoted(std::string path) {

@@ -21,16 +21,6 @@ std::string signed_literal(std::uint32_t bits) {
   return bits == 0x80000000u ? "-2147483647 - 1" : std::to_string(static_cast<std::int32_t>(bits));
 }
 
-// For a C++ string literal.
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += c;
-  }
-  return result;
-}
-
 std::string trimmed(const std::string& line) { return line.substr(line.find_first_not_of(' ')); }
 
 // Lines that declare nothing, joined by commas to stand in the head of a `for`; false if they cannot.
@@ -126,7 +116,7 @@ void FunctionEmitter::loop(const Statement& s) {
     masks_.push_back({iteration, &s, true, 0});
   }
   if (const auto counted = info_.counted_loops.find(s.id); counted != info_.counted_loops.end())
-    out_.line("this->iterate(" + std::to_string(counted->second) + ", \"" + escaped(where) + "\");");
+    out_.line("this->iterate(" + std::to_string(counted->second) + ", " + quoted(where) + ");");
   list(s.body, &s, test == nullptr ? 0 : rest);
   if (!iteration.empty()) masks_.pop_back();
   flush();
@@ -236,13 +226,16 @@ void FunctionEmitter::masked_cases(const Statement& s) {
   for (const Case& c : s.cases) all.insert(all.end(), c.values.begin(), c.values.end());
   std::string falling;  // mask of the lanes that fall through
   for (const Case& c : s.cases) {
-    // default takes what no case names, also if it has case values beside it.
-    std::vector<std::uint32_t> others;
-    for (std::uint32_t v : all)
-      if (std::find(c.values.begin(), c.values.end(), v) == c.values.end()) others.push_back(v);
-    std::string chosen = !c.is_default    ? "(" + match(c.values) + ")"
-                         : others.empty() ? "B(true)"
-                                          : "!(" + match(others) + ")";
+    std::string chosen;
+    if (c.is_default) {
+      // default takes what no case names, also if it has case values beside it.
+      std::vector<std::uint32_t> others;
+      for (std::uint32_t v : all)
+        if (std::find(c.values.begin(), c.values.end(), v) == c.values.end()) others.push_back(v);
+      chosen = others.empty() ? "B(true)" : "!(" + match(others) + ")";
+    } else {
+      chosen = "(" + match(c.values) + ")";
+    }
     const std::string own = new_mask();
     std::string text = masks_.empty() ? chosen : mask() + " & " + chosen;
     if (!falling.empty()) text = falling + " | (" + text + ")";

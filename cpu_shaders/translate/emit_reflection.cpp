@@ -1,16 +1,9 @@
 #include "cpu_shaders/translate/emit_reflection.h"
 
+#include "cpu_shaders/translate/writer.h"
+
 namespace twinshade::spirv {
 namespace {
-
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += c == '\n' ? ' ' : c;
-  }
-  return result + "\"";
-}
 
 const char* boolean(bool b) { return b ? "true" : "false"; }
 

@@ -31,7 +31,7 @@ void FunctionEmitter::position(std::uint32_t file, int line) {
     if (text.find_first_not_of("{}; ") != std::string::npos)
       out_.line("// " + (p.file == last_file_ ? "" : p.file + ":") + std::to_string(p.line) + ": " + text);
   } else {
-    out_.raw("#line " + std::to_string(p.line) + " \"" + p.file + "\"");
+    out_.raw("#line " + std::to_string(p.line) + " " + quoted(p.file));
   }
   last_file_ = p.file;
   last_line_ = p.line;

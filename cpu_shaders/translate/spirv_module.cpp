@@ -43,6 +43,9 @@ class Parser {
         m.names[word(first)] = text_at(words_, first + 1, last);
         return;
       }
+      case spv::OpExtInstImport:
+        extended_sets_[word(first)] = text_at(words_, first + 1, last);
+        return;
       case spv::OpMemberName:
         m.member_names[{word(first), word(first + 1)}] = text_at(words_, first + 2, last);
         return;
@@ -78,7 +81,6 @@ class Parser {
       case spv::OpCapability:
       case spv::OpExtension:
       case spv::OpMemoryModel:
-      case spv::OpExtInstImport:
       case spv::OpNop:
         return;
       default:
@@ -257,6 +259,10 @@ class Parser {
     i.operands.assign(words_.begin() + static_cast<std::ptrdiff_t>(at),
                       words_.begin() + static_cast<std::ptrdiff_t>(last));
     if (i.result != 0) module_.value_types[i.result] = i.type;
+    // Whoever looks at an extended instruction looks at its number alone.
+    if (op == spv::OpExtInst && extended_sets_[i.operands.at(0)] != "GLSL.std.450")
+      throw UserError(here() + "built-in functions of " + extended_sets_[i.operands[0]] +
+                      " are not supported: of extensions none is translated, write it in other terms");
     switch (op) {
       case spv::OpPhi:
         block.phis.push_back(i);
@@ -280,6 +286,7 @@ class Parser {
   const std::vector<std::uint32_t>& words_;
   const SourceLines& lines_;
   Module module_;
+  std::unordered_map<Id, std::string> extended_sets_;  // names of what is imported
   std::uint32_t file_ = 0;
   int line_ = 0;
   bool in_function_ = false;
@@ -348,7 +355,11 @@ Kind Module::scalar_kind(Id id) const {
   return t.kind == Kind::vector || t.kind == Kind::matrix || t.kind == Kind::array ? scalar_kind(t.element) : t.kind;
 }
 
-std::string op_name(spv::Op op) { return std::string("Op") + spv::OpcodeString(op); }
+std::string op_name(spv::Op op) {
+  // glslang's names lack the "Op", but for some of extensions.
+  const std::string name = spv::OpcodeString(op);
+  return name.rfind("Op", 0) == 0 ? name : "Op" + name;
+}
 
 std::vector<Id> value_operands(const Instruction& i) {
   const auto& o = i.operands;

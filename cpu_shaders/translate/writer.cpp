@@ -30,6 +30,15 @@ std::size_t break_before(const std::string& text, std::size_t most) {
 
 }  // namespace
 
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c == '\n' ? ' ' : c;
+  }
+  return result + '"';
+}
+
 void Writer::line(const std::string& text) {
   if (text.empty()) {
     lines_.emplace_back();

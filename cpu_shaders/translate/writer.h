@@ -6,6 +6,9 @@
 
 namespace twinshade::spirv {
 
+// Between quotes, as a string literal or the file of a #line.
+std::string quoted(const std::string& text);
+
 class Writer {
  public:
   void line(const std::string& text);   // indented, wrapped at 120 columns; empty: an empty line

@@ -77,6 +77,10 @@ TEST_CASE("functions of extensions are refused with the reason, and one's own ma
       kHead +
           "layout(std430, binding = 0) buffer B { int n; };\nvoid main() { color = vec4(atomicLoad(n, 1, 0, 0)); }\n",
       4, "atomicLoad");
+  check_refused(kHead +
+                    "#extension GL_AMD_shader_trinary_minmax : enable\nin vec3 v;\n"
+                    "void main() { color = vec4(min3(v.x, v.y, v.z)); }\n",
+                5, "SPV_AMD_shader_trinary_minmax");
   CHECK(refusal(kHead + "void main() { color = texture(1.0); }\n").find(reason) == std::string::npos);
 }
 
@@ -100,6 +104,26 @@ TEST_CASE("a struct with bools of a block is refused as a part of another value"
                     "struct S { float v; bool on; };\nlayout(std140) uniform Block { S s; };\nvoid main() {\n  S t;\n"
                     "  t.on = true; t.v = 1.0;\n  S list[2] = S[2](s, t);\n  color = vec4(list[int(t.v)].v);\n}\n",
                 8, "assign it to a variable first");
+}
+
+TEST_CASE("what extensions add is refused where it stands") {
+  check_refused(kHead + "#extension GL_EXT_spirv_intrinsics : require\nvoid main() { color = vec4(1); }\n", 3,
+                "#extension GL_EXT_spirv_intrinsics");
+  check_refused(kHead +
+                    "#ifdef GL_EXT_spirv_intrinsics\n#extension GL_EXT_spirv_intrinsics : enable\n"
+                    "#endif\nvoid main() { color = vec4(1); }\n",
+                4, "#extension GL_EXT_spirv_intrinsics");
+  CHECK(refusal(kHead + "#if 0\n#extension GL_EXT_spirv_intrinsics : require\n#endif\n"
+                        "#extension GL_EXT_spirv_intrinsics : disable\nvoid main() { color = vec4(1); }\n") ==
+        "accepted");
+  const std::string demote = kHead +
+                             "#extension GL_EXT_demote_to_helper_invocation : enable\nin float x;\n"
+                             "void main() {\n  if (x > 0.0) demote;\n  color = vec4(x);\n}\n";
+  check_refused(demote, 6, " OpDemoteToHelperInvocationEXT");
+  check_refused(kHead +
+                    "#extension GL_AMD_shader_trinary_minmax : enable\nin vec3 v;\n"
+                    "void main() {\n  color = vec4(min3(v.x, v.y, v.z));\n}\n",
+                6, "SPV_AMD_shader_trinary_minmax");
 }
 
 TEST_CASE("glslang's messages come with the author's file and line") {

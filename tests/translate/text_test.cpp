@@ -29,6 +29,17 @@ TEST_CASE("readable text has the GLSL as comments, compiled text #line") {
   CHECK(of(glsl).cpp == readable);
 }
 
+TEST_CASE("a file's name may have what means something in a string of C++") {
+  TranslateOptions options;
+  const std::string glsl =
+      "#version 450\nin vec3 n;\nout vec4 c;\nvoid main() {\n"
+      "  for (float x = n.x; x < n.y; x *= n.z) c += vec4(x);\n}\n";
+  options.readable = false;
+  const std::string cpp = translate(resolve_shader("sample", glsl, "back\\xs.frag"), options).cpp;
+  CHECK(has(cpp, "#line 5 \"back\\\\xs.frag\""));
+  CHECK(has(cpp, ", \"back\\\\xs.frag:5\");"));
+}
+
 // glslang is told another version than the author's where the author's has no SPIR-V or lacks what the shader uses.
 TEST_CASE("whatever version a shader is read as, __VERSION__ is the author's and newer built-ins are there") {
   const std::string body = "out vec4 c;\nvoid main() { c = vec4(float(__VERSION__)); }\n";

@@ -286,9 +286,12 @@ std::string FunctionEmitter::nested_store(const std::string& base, const Place& 
     if (k + 1 == p.steps.size())
       return "store_lookup(" + mask_text + ", " + target + ", " + s.text + ", " + stored + ");";
     const std::string number = depth == 0 ? "" : std::to_string(depth);
-    const std::string here = "here" + number, element = "element" + number;
+    names_.open();
+    const std::string here = names_.declare("here" + number), element = names_.declare("element" + number);
+    const std::string inner = nested_store(element, p, k + 1, here, true, stored, depth + 1);
+    names_.close();
     return "update(" + mask_text + ", " + target + ", " + s.text + ", [&](const auto& " + here + ", auto& " + element +
-           ") { " + nested_store(element, p, k + 1, here, true, stored, depth + 1) + " });";
+           ") { " + inner + " });";
   }
   return masked ? "assign(" + mask_text + ", " + target + ", " + stored + ");" : target + " = " + stored + ";";
 }

@@ -59,7 +59,14 @@ TypeNames::TypeNames(const Module& module, NameTable& names) : module_(module) {
   std::set<Id> ids;
   for (const auto& [id, type] : module.types)
     if (type.kind == Kind::structure) ids.insert(id);
-  for (Id id : ids) structures_[id] = names.declare(module.name(id).empty() ? "Struct" : module.name(id));
+  for (Id id : ids) {
+    std::string wanted = module.name(id).empty() ? "Struct" : module.name(id);
+    if (wanted == "mask" || wanted == "a" || wanted == "b") wanted += '_';  // the parameters of a struct's select
+    const std::string name = names.declare(wanted);
+    structures_[id] = {name, names.declare_own("uniform_" + name), names.declare_own(name + "_of")};
+    const StructureNames& all = structures_.at(id);
+    for (const std::string& type : {all.varying, all.uniform, all.of}) beside_members_.declare_own(type);
+  }
 }
 
 std::string TypeNames::name(Id id, bool varying) {
@@ -81,7 +88,7 @@ std::string TypeNames::name(Id id, bool varying) {
     case Kind::structure:
       declare_structure(id);
       if (!varying) need_uniform(id);
-      return (varying ? "" : "uniform_") + structures_.at(id);
+      return varying ? structures_.at(id).varying : structures_.at(id).uniform;
     case Kind::sampler: {
       const Type& image = module_.type(t.element);
       base = image.dimension == spv::DimCube ? "samplerCube" : image.arrayed ? "sampler2DArray" : "sampler2D";
@@ -101,13 +108,16 @@ std::string TypeNames::name(Id id, bool varying) {
 void TypeNames::declare_structure(Id id) {
   if (!declared_.insert(id).second) return;
   const Type& t = module_.type(id);
-  NameTable local;
+  std::vector<std::string> types;  // structures that it holds come first
+  for (Id member : t.members) types.push_back(name(member, true));
+  beside_members_.open();
   for (std::uint32_t k = 0; k < t.members.size(); ++k) {
-    member_types_[{id, k}] = name(t.members[k], true);  // structures that it holds come first
+    member_types_[{id, k}] = types[k];
     const auto found = module_.member_names.find({id, k});
     members_[{id, k}] =
-        local.declare(found == module_.member_names.end() ? "member" + std::to_string(k) : found->second);
+        beside_members_.declare(found == module_.member_names.end() ? "member" + std::to_string(k) : found->second);
   }
+  beside_members_.close();
   structure_order_.push_back(id);
 }
 
@@ -192,7 +202,7 @@ std::string TypeNames::twin_type(Id id) const {
     case Kind::array:
       return "arr<" + twin_type(t.element) + ", " + std::to_string(t.count) + ">";
     case Kind::structure:
-      return structures_.at(id) + "_of<K>";
+      return structures_.at(id).of + "<K>";
     case Kind::matrix:
       return "mat<typename K::F, " + std::to_string(t.count) + ", " + std::to_string(module_.type(t.element).count) +
              ">";
@@ -206,8 +216,8 @@ std::string TypeNames::twin_type(Id id) const {
 void TypeNames::write_structure(Writer& out, Id id) const {
   const Type& t = module_.type(id);
   const bool both = uniform_structures_.count(id) != 0;
-  const std::string& name = structures_.at(id);
-  const std::string own = both ? name + "_of" : name;
+  const StructureNames& names = structures_.at(id);
+  const std::string& own = both ? names.of : names.varying;
   std::string copies, selects;
   out.line("");
   if (both) out.line("template <class K>");
@@ -231,8 +241,8 @@ void TypeNames::write_structure(Writer& out, Id id) const {
   out.close("}");
   out.close("};");
   if (both) {
-    out.line("using " + name + " = " + own + "<Varying>;");
-    out.line("using uniform_" + name + " = " + own + "<Uniform>;");
+    out.line("using " + names.varying + " = " + own + "<Varying>;");
+    out.line("using " + names.uniform + " = " + own + "<Uniform>;");
   }
 }
 

@@ -28,9 +28,14 @@ class TypeNames {
   std::string twin_type(Id id) const;
   void write_structure(Writer& out, Id id) const;
 
+  struct StructureNames {
+    std::string varying, uniform, of;  // of: the template that both are made from
+  };
+
   const Module& module_;
   std::set<std::string> aliases_;
-  std::map<Id, std::string> structures_;  // names, all reserved at the start
+  std::map<Id, StructureNames> structures_;  // all reserved at the start
+  NameTable beside_members_;                 // those same names: a member of a type's name would hide it in its struct
   std::set<Id> declared_;
   std::vector<Id> structure_order_;
   std::set<Id> uniform_structures_;  // those that also occur with uniform members

@@ -26,7 +26,8 @@ const std::set<std::string>& keywords() {
   return words;
 }
 
-// The runtime and the frame of the generated file.
+// The runtime and the frame of the generated file: what generated code says without a qualifier, and what it calls of
+// the class that it inherits, which a function or a variable of the same name would hide.
 const std::set<std::string>& reserved() {
   static const std::set<std::string> words = {"F",
                                               "I",
@@ -114,6 +115,24 @@ const std::set<std::string>& reserved() {
                                               "first",
                                               "memory",
                                               "array_length",
+                                              "atomic_add",
+                                              "atomic_and",
+                                              "atomic_comp_swap",
+                                              "atomic_exchange",
+                                              "atomic_max",
+                                              "atomic_min",
+                                              "atomic_or",
+                                              "atomic_xor",
+                                              "iterate",
+                                              "barrier",
+                                              "shared",
+                                              "num_work_groups",
+                                              "work_group_id",
+                                              "local_invocation_id",
+                                              "local_invocation_index",
+                                              "global_invocation_id",
+                                              "shader_data",
+                                              "shade_call",
                                               "map",
                                               "Lane",
                                               "Vec",
@@ -126,6 +145,7 @@ const std::set<std::string>& reserved() {
                                               "Quad64",
                                               "Plain",
                                               "Simd",
+                                              "Steps",
                                               "SimdMask",
                                               "BufferView",
                                               "TextureView",
@@ -172,10 +192,15 @@ std::string NameTable::declare(const std::string& wanted) {
   // Two underscores in a row are reserved in C++ as in GLSL, where they only warn.
   for (std::size_t at = name.find("__"); at != std::string::npos; at = name.find("__")) name.erase(at, 1);
   if (name[0] == '_') name.insert(0, "x");
-  // Aliases of uniform types begin with uniform_; neither they nor macros end in an underscore.
+  // Aliases of uniform vectors and matrices begin with uniform_; neither they nor macros end in an underscore.
   const bool may_stand_for_another = name.back() != '_' && (name.rfind("uniform_", 0) == 0 || may_be_a_macro(name));
-  if (may_stand_for_another || taken(name)) {
-    const std::string base = name + '_';
+  return declare_own(may_stand_for_another ? name + '_' : name);
+}
+
+std::string NameTable::declare_own(const std::string& wanted) {
+  std::string name = wanted;
+  if (taken(name)) {
+    const std::string base = name.back() == '_' ? name : name + '_';
     name = base;
     for (int k = 2; taken(name); ++k) name = base + std::to_string(k);
   }

@@ -14,6 +14,8 @@ class NameTable {
   void close() { scopes_.pop_back(); }
   // `wanted`, or `wanted` with a suffix if a keyword, the runtime or an open scope has it already, or a macro may.
   std::string declare(const std::string& wanted);
+  // The same for a name that the translator makes: no macro has it, and it may begin as aliases of uniform types do.
+  std::string declare_own(const std::string& wanted);
 
  private:
   bool taken(const std::string& name) const;

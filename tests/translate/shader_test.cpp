@@ -18,6 +18,7 @@ SHADER(builtins)
 SHADER(functions)
 SHADER(globals)
 SHADER(language)
+SHADER(names)
 SHADER(whole_arrays)
 
 namespace {
@@ -438,6 +439,32 @@ TEST_CASE("input blocks, functions of two results, initialised uniforms, arrays 
         check_value(answer, "gathered", c, i, gathered[c], number);
         check_value(answer, "forms", c, i, forms[c], number);
         check_value(answer, "edges", c, i, 10 + 80000, number);  // the map is clamped: four times its corner
+      }
+    }
+  }
+}
+
+TEST_CASE("names that mean something else in C++ are a shader's own") {
+  Invocations in;
+  in.input = [](const std::string& name, std::uint32_t, std::uint32_t i) {
+    return static_cast<double>(name == "p" ? small_a(i) : small_b(i));
+  };
+  in.uniforms["shader_data"] = {7};
+  in.uniforms["shade_call"] = {8};
+  for (Number number : kAll) {
+    in.buffers["Counts"].assign(4, std::byte{0});
+    const Answer answer = RUN(names, number, in);
+    CHECK(get<std::uint32_t>(in.buffers["Counts"], 0) == 6 * in.count);
+    for (std::uint32_t i = 0; i < in.count; ++i) {
+      const int p = small_a(i), q = small_b(i), odd = q & 1;
+      const double structs[] = {p + 10.0 * (p + 1), p + 20.0, 7 + 10.0 * p + 300,
+                                odd ? 1 + 30 + 100.0 * p : 2 + 40 + 100.0 * p};
+      const int column = q % 3, row = p % 3;
+      const double cell = (column == 1 && row == 2 ? 5 : 0) + (row == 1 && column == 2 ? 1 : 0);
+      const double others[] = {2.0 * p * q, 8, 10, cell};
+      for (std::size_t c = 0; c < 4; ++c) {
+        check_value(answer, "structs", c, i, structs[c], number);
+        check_value(answer, "others", c, i, others[c], number);
       }
     }
   }

@@ -121,7 +121,7 @@ std::vector<std::string> files_of_shader(const std::string& shader, const std::v
   try {
     const ShaderSource source = load_fragment_shader(shader, include_folders);
     files.insert(files.end(), source.files.begin(), source.files.end());
-  } catch (const UserError&) {
+  } catch (const std::exception&) {  // told where it is read to be run
   }
   return files;
 }

@@ -153,9 +153,11 @@ void write_file_with(const std::string& path, const std::function<void(const std
       write_in_place(path, to, read_file(temporary));
       fs::remove(temporary, code);
     } else {
-      // a file that is replaced keeps who may read and write it
-      if (const fs::file_status replaced = fs::status(to.file, code); fs::is_regular_file(replaced))
-        fs::permissions(temporary, replaced.permissions(), code);
+      // A file that is replaced keeps who may read and write it, unless its owner may not.
+      constexpr fs::perms kOwn = fs::perms::owner_read | fs::perms::owner_write;
+      const fs::file_status replaced = fs::status(to.file, code);
+      if (fs::is_regular_file(replaced) && (replaced.permissions() & kOwn) == kOwn)
+        fs::permissions(temporary, replaced.permissions() & fs::perms::all, code);
       fs::rename(temporary, to.file, code);
       if (code) refuse_writing(path, code.message());
     }

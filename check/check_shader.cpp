@@ -124,7 +124,9 @@ class Check {
       beyond.resize(i + 1);
       result_.backends.push_back(std::move(check));
     }
-    const bool close = options_.ulp && result_.max_ulp <= *options_.ulp;  // +0 and -0 are 0 apart
+    // +0 and -0 are 0 apart; discarding is at no distance
+    const bool close = options_.ulp &&
+                       std::all_of(beyond.begin(), beyond.end(), [](const RowComparison& c) { return c.rows.empty(); });
     const bool all_refuse = refused > 0 && refused + 1 == result_.backends.size();
     result_.verdict = all_refuse      ? Verdict::refused
                       : compared == 0 ? Verdict::not_run

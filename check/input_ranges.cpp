@@ -1,6 +1,7 @@
 #include "check/input_ranges.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -46,9 +47,11 @@ std::pair<double, double> interval(const std::string& word, const std::string& w
   return {low, high};
 }
 
-// What stands behind a range may be one that was mistyped.
+// What stands behind a range is for people, or one that was mistyped.
 void require_end(const std::vector<std::string>& words, std::size_t end, const std::string& where) {
-  if (end < words.size())
+  if (end == words.size()) return;
+  const bool word = std::isalpha(static_cast<unsigned char>(words[end][0])) != 0;
+  if (!word || words[end].find("..") != std::string::npos)
     throw UserError(where + "\"" + words[end] + "\" is too much behind the range: // begins a comment");
 }
 
@@ -172,9 +175,11 @@ std::vector<InputRange> declared_ranges(const ShaderSource& source) {
     const std::size_t comment = line_comment(line, in_block);
     const std::size_t tag = comment == std::string::npos ? comment : line.find("@input", comment);
     if (tag == std::string::npos || line.find_first_not_of("/ \t", comment) != tag) continue;
-    if (const std::size_t end = std::min(line.find_first_of(" \t\r", tag), line.size()); end != tag + 6)
+    if (const std::size_t end = std::min(line.find_first_of(" \t\r", tag), line.size()); end != tag + 6) {
+      if (line.find("..", end) == std::string::npos && line.find('{', end) == std::string::npos) continue;  // prose
       throw UserError(file + ":" + std::to_string(number_of_line) + ": unknown comment " + line.substr(tag, end - tag) +
                       ": a range is declared by @input NAME");
+    }
     comments[at] = {line.substr(tag + 6), file, number_of_line};
   }
   keep_those_in_force(source, comments);

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <mutex>
+#include <set>
 #include <sstream>
 #include <string_view>
 
@@ -50,6 +52,25 @@ bool is_compiler_itself(const fs::path& program) {
          "ELF";
 }
 
+// What a wrapper says of itself; one that does not answer is asked once in this process, not by each of a thousand
+// shaders.
+std::string version_of(std::vector<std::string> command, const std::string& identity,
+                       std::chrono::milliseconds patience) {
+  static std::mutex mutex;
+  static std::set<std::string> silent;
+  const std::lock_guard lock(mutex);
+  command.emplace_back("--version");
+  ProgramResult answer;
+  answer.timed_out = silent.count(identity) != 0;
+  if (!answer.timed_out) answer = run_program(command, patience);
+  if (answer.timed_out) {
+    silent.insert(identity);
+    throw CompilerTimeout(fmt::format("{} does not answer within {} s; set CXX to a C++ compiler that works",
+                                      fmt::join(command, " "), patience.count() / 1000));
+  }
+  return answer.output;
+}
+
 // Path, size and time stand for a compiler's version, since asking it takes longer than loading a cached shader.
 // Wrappers are asked.
 std::string identity_of(const std::vector<std::string>& command, std::chrono::milliseconds patience) {
@@ -60,13 +81,7 @@ std::string identity_of(const std::vector<std::string>& command, std::chrono::mi
   const auto time = fs::last_write_time(real, code).time_since_epoch().count();
   identity += fmt::format("\n{} {} {}", real.string(), fs::file_size(real, code), time);
   if (command.size() == 1 && is_compiler_itself(real)) return identity;
-  std::vector<std::string> question = command;
-  question.emplace_back("--version");
-  const ProgramResult answer = run_program(question, patience);
-  if (answer.timed_out)
-    throw UserError(fmt::format("{} does not answer within {} s; set CXX to a C++ compiler that works",
-                                fmt::join(question, " "), patience.count() / 1000));
-  return identity + "\n" + answer.output;
+  return identity + "\n" + version_of(command, identity, patience);
 }
 
 // Code would give other values, or could not be loaded into this process. Flags that follow the command undo most of
@@ -83,11 +98,12 @@ bool is_unusable(std::string_view word) {
                                          "-mdaz-ftz",
                                          "-mrecip",
                                          "-fno-signed-zeros",
+                                         "-ftrapv",
                                          "-m32",
                                          "-mx32",
                                          "-m16"};
-  constexpr std::string_view kBeginnings[] = {"-fsanitize", "-ffp-model=", "-fdenormal-fp-math",
-                                              "-mrecip=", "-mfpmath="};
+  constexpr std::string_view kBeginnings[] = {"-fsanitize", "-ffp-model=fast", "-fdenormal-fp-math=p",
+                                              "-mrecip=",   "-mfpmath=387",    "-mfpmath=both"};
   return std::ranges::find(kWords, word) != std::end(kWords) ||
          std::ranges::any_of(kBeginnings, [&](std::string_view beginning) { return word.starts_with(beginning); });
 }

@@ -5,11 +5,19 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
+
 namespace twinshade {
 
 struct Compiler {
   std::vector<std::string> command;  // the program's path, then words that belong to it: "/usr/bin/ccache" "g++"
   std::string identity;              // changes with the compiler's version
+};
+
+// The compiler was waited for in vain: nobody should wait for it again for the same thing.
+class CompilerTimeout : public UserError {
+ public:
+  using UserError::UserError;
 };
 
 // asked: a name or path, perhaps with words after it ("ccache g++"); empty: the first of $CXX, clang++, g++, c++ that

@@ -24,7 +24,8 @@ struct BatchModule {
 
 // cpp: Translation::cpp of each shader, not made with TranslateOptions::readable. The result likewise. Modules have the
 // entries of options.compile.numbers (float64 only where the shader can run in double). Where a unit does not compile,
-// its shaders are compiled one by one, so that only the guilty one has an error.
+// its shaders are compiled one by one, so that only the guilty one has an error; but for a unit that takes too long,
+// all have.
 std::vector<BatchModule> load_batch(std::span<const std::string> cpp, const BatchOptions& options);
 
 }  // namespace twinshade

@@ -13,8 +13,9 @@ namespace {
 [[noreturn]] void refuse_object(const std::string& path, const std::string& reason) {
   std::error_code code;
   const bool removed = std::filesystem::remove(path, code);
-  throw UserError(path + ": compiled shader " + reason + (removed ? "; it was removed" : "; remove it") +
-                  "; set CXX to a C++ compiler that works");
+  throw UserError(
+      path + ": compiled shader " + reason + (removed ? "; it was removed" : "; remove it") +
+      "; set CXX to a C++ compiler that works, or TWINSHADE_CACHE to a folder that programs may be loaded from");
 }
 
 }  // namespace

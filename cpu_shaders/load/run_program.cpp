@@ -35,7 +35,8 @@ constexpr const char* kRun =
 // $1: that folder, $2: how files half made begin. Compilers end at TERM, some a moment later, and remove what they
 // made; what ignores it is killed, and this shell with it.
 constexpr const char* kWatch =
-    "trap '' HUP INT TERM; read -r _; kill -TERM 0; sleep 0.2; rm -rf \"$1\"; [ -z \"$2\" ] || rm -f \"$2\"[.-]*; "
+    "PATH=/usr/bin:/bin; trap '' HUP INT TERM; read -r _; kill -TERM 0; sleep 0.2; rm -rf \"$1\"; [ -z \"$2\" ] || rm "
+    "-f \"$2\"[.-]*; "
     "kill -KILL 0";
 
 // A folder of its own, empty where there is no place for one: compilers find another, or say what they miss.
@@ -142,6 +143,7 @@ bool wait_for(pid_t child, int output_end, Clock::time_point deadline, int& stat
 ProgramResult run_program(const std::vector<std::string>& words, milliseconds time, const std::string& made) {
   ProgramResult result;
   const auto fails = [&](const char* what, int error) {
+    result.started = false;
     result.output = std::string(what) + ": " + std::strerror(error);
     return result;
   };
@@ -167,13 +169,16 @@ ProgramResult run_program(const std::vector<std::string>& words, milliseconds ti
   int status = 0;
   result.timed_out = !wait_for(child, output.read_end.number, Clock::now() + time, status, result.output);
   group.end();
-  if (result.timed_out)
+  if (result.timed_out) {
+    kill(child, SIGKILL);  // it may have left the group
     while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
-  else if (WIFEXITED(status))
+  } else if (WIFEXITED(status)) {
     result.status = WEXITSTATUS(status);
-  // The rest; what was killed is gone when it ends.
-  while (read_some(output.read_end.number, milliseconds(100), result.output) == Read::some) {
+  }
+  // The rest; what has left the group may hold the pipe, and write to it without end.
+  const Clock::time_point end = Clock::now() + milliseconds(100);
+  while (Clock::now() < end && read_some(output.read_end.number, milliseconds(20), result.output) == Read::some) {
   }
   return result;
 }

@@ -14,6 +14,7 @@ struct ProgramResult {
   int status = -1;          // exit status; -1: could not be started, or was killed
   std::string output = {};  // stdout and stderr, as far as anyone reads them
   bool timed_out = false;   // killed since it had not ended in time
+  bool started = true;
 };
 // Runs words[0], a path, and waits for it. It and what it starts may take 300 s of processor time and 4 GiB of
 // addresses each, and have a folder for temporary files of their own. When it has ended, when `time` has passed, and

@@ -46,7 +46,7 @@ std::string first_complaint(const std::string& output) {
 bool broke_down(const ProgramResult& result) {
   constexpr std::string_view kSigns[] = {"unable to execute command", "internal compiler error", "terminated program",
                                          "out of memory", "memory exhausted"};
-  return result.status < 0 || std::ranges::any_of(kSigns, [&](std::string_view sign) {
+  return (result.started && result.status < 0) || std::ranges::any_of(kSigns, [&](std::string_view sign) {
            return result.output.find(sign) != std::string::npos;
          });
 }

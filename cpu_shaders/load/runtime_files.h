@@ -30,12 +30,6 @@ PreparedRuntime prepare_runtime(const std::string& runtime, const Compiler& comp
 // a new one.
 void discard_prepared(const PreparedRuntime& prepared);
 
-// The compiler was waited for in vain: nobody should wait for it again for the same thing.
-class CompilerTimeout : public UserError {
- public:
-  using UserError::UserError;
-};
-
 // UserError, one line, unless the command succeeded and there is a file `made`: the command's first complaint, or that
 // it had none. what: was to be compiled.
 void require_made(const std::string& made, const Compiler& compiler, const ProgramResult& result,

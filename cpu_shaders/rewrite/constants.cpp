@@ -1,8 +1,6 @@
 #include "cpu_shaders/rewrite/constants.h"
 
 #include <algorithm>
-
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 

@@ -44,27 +44,6 @@ std::string with_joined_lines(const std::string& text) {
   return joined.append(text, from, text.npos);
 }
 
-// As glslang can bear #extension: of `warn` it reads positions that it has not set, and `all : disable` takes the
-// extension that our #line needs. What is left of `all` is what there is without it.
-std::string with_plain_extensions(const std::string& text) {
-  if (text.find("extension") == text.npos) return text;
-  static const std::regex directive(R"(^[ \t]*#[ \t]*extension[ \t]+(\w+)[ \t]*:[ \t]*(\w+))");
-  std::istringstream lines(text);
-  std::string line, plain;
-  while (std::getline(lines, line)) {
-    std::smatch match;
-    const std::size_t first = line.find_first_not_of(" \t");
-    if (first != line.npos && line[first] == '#' && std::regex_search(line, match, directive)) {
-      if (match[1] == "all")
-        line.clear();
-      else if (match[2] == "warn")
-        line.replace(std::size_t(match.position(2)), 4, "enable");
-    }
-    plain += line + '\n';
-  }
-  return plain;
-}
-
 }  // namespace
 
 void start_glslang() {
@@ -89,7 +68,7 @@ std::vector<int> glslang_versions(const ShaderSource& source) {
 }
 
 std::string glslang_text(const ShaderSource& source, int version) {
-  std::string text = with_plain_extensions(source.text);
+  std::string text = source.text;
   if (!source.es && version < 420) text = with_joined_lines(text);
   const bool has_version = text.rfind("#version", 0) == 0;
   const std::size_t end = has_version ? text.find('\n') : 0;

@@ -125,11 +125,14 @@ class Resolver {
       } else if (line.directive == "version") {
         version(line, where, main);
         blank(line);
-      } else if (line.directive == "extension" && replaced_extension(line.arguments)) {
+      } else if (line.directive == "extension" && plain_extension(line.arguments).empty()) {
         blank(line);
       } else if (line.directive == "extension" && conditional_depth_ == outer_depth) {
-        prologue_ +=
-            "#line " + std::to_string(line.number) + " " + quoted(file.shown) + "\n#extension " + line.arguments + "\n";
+        prologue_ += "#line " + std::to_string(line.number) + " " + quoted(file.shown) + "\n#extension " +
+                     plain_extension(line.arguments) + "\n";
+        blank(line);
+      } else if (line.directive == "extension") {
+        body_ += "#extension " + plain_extension(line.arguments) + ' ';
         blank(line);
       } else {
         body_ += with_file_index(line.text, index) + '\n';
@@ -172,6 +175,18 @@ class Resolver {
   // What it declares would be glslang's alone: the lint's parser knows no such functions, nor does OpenGL.
   static bool is_intrinsics(const std::string& arguments) {
     return find_word(arguments, "GL_EXT_spirv_intrinsics") == 0 && find_word(arguments, "disable") == arguments.npos;
+  }
+
+  // As glslang can bear it, empty where there is nothing to ask for: of `warn` it reads positions that it has not set,
+  // and `all : disable` takes the extension that our #line needs. What is left of `all` is what there is without it.
+  static std::string plain_extension(const std::string& arguments) {
+    const std::size_t colon = arguments.find(':');
+    if (replaced_extension(arguments) || colon == arguments.npos) return replaced_extension(arguments) ? "" : arguments;
+    const std::string name = arguments.substr(0, colon);
+    const bool warns = find_word(arguments, "warn") > colon && find_word(arguments, "warn") != arguments.npos;
+    const bool disables = find_word(arguments, "disable") > colon && find_word(arguments, "disable") != arguments.npos;
+    if (find_word(name, "all") == 0 && (warns || disables)) return "";
+    return warns ? name + ": enable" : arguments;
   }
 
   static std::string quoted(std::string path) {

@@ -84,6 +84,8 @@ void FunctionEmitter::loop(const Statement& s) {
     for (Mask& m : masks_) ++m.uniform_depth;
   }
 
+  const std::string again = names_.declare("again");  // stands in a head, whose names the body must not have
+
   // Everything is written aside first: the form of the loop depends on what fits into its head.
   names_.open();
   out_.indent();
@@ -155,7 +157,6 @@ void FunctionEmitter::loop(const Statement& s) {
     out_.line("}");
   } else {
     // Something does not fit into the head: the end of each iteration moves to the beginning of the next.
-    const std::string again = names_.declare("again");
     if (!init.empty()) out_.line(init + ";");
     out_.open("for (bool " + again + " = false;; " + again + " = true) {");
     if (!continuing.empty() || !back.empty()) {

@@ -38,16 +38,22 @@ class StructCopies {
       case spv::OpCompositeExtract:
         if (module_.types.count(i.type) == 0) refuse(i);
         return;
+      case spv::OpIEqual:
+      case spv::OpINotEqual:
+        if (!is_bool(i.operands[0]) && !is_bool(i.operands[1])) return;
+        i.op = i.op == spv::OpIEqual ? spv::OpLogicalEqual : spv::OpLogicalNotEqual;
+        [[fallthrough]];
       case spv::OpLogicalEqual:
       case spv::OpLogicalNotEqual:
         for (Id& operand : i.operands)
-          if (module_.scalar_kind(module_.value_types.at(operand)) == Kind::unsigned_integer)
-            operand = as_bool(code, i, operand, i.type);
+          if (!is_bool(operand)) operand = as_bool(code, i, operand, i.type);
         return;
       default:
         return;
     }
   }
+
+  bool is_bool(Id value) const { return module_.scalar_kind(module_.value_types.at(value)) == Kind::boolean; }
 
   // glslang takes components of a scalar.
   [[noreturn]] void refuse(const Instruction& i) const {

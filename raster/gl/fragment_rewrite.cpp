@@ -1,6 +1,7 @@
 #include "raster/gl/fragment_rewrite.h"
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <optional>
 #include <set>
@@ -98,6 +99,7 @@ class Rewriter {
   void rename_new_keywords() {
     std::set<std::string> keywords;
     if (!source_.es && source_.version < 400) keywords.insert({"sample", "patch", "precise", "subroutine"});
+    if (!source_.es && source_.version < 420) keywords.insert({"coherent", "restrict", "readonly", "writeonly"});
     if (source_.es ? source_.version < 310 : source_.version < 430) keywords.insert({"buffer", "shared"});
     if (source_.es) keywords.insert({"precise"});
     if (!text_.extensions.empty()) return;  // then they may be keywords all the same
@@ -374,7 +376,14 @@ class Rewriter {
 
 std::string author_name(std::string name) {
   const std::string_view prefix = kNamePrefix;
-  for (std::size_t at = 0; (at = name.find(prefix, at)) != std::string::npos;) name.erase(at, prefix.size());
+  const auto within_word = [&](std::size_t at) {
+    return at > 0 && (std::isalnum(static_cast<unsigned char>(name[at - 1])) != 0 || name[at - 1] == '_');
+  };
+  for (std::size_t at = 0; (at = name.find(prefix, at)) != std::string::npos;)
+    if (within_word(at))
+      ++at;
+    else
+      name.erase(at, prefix.size());
   return name;
 }
 

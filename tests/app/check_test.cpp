@@ -196,6 +196,18 @@ TEST_CASE("softpipe's denormals are the CPU's whichever comes first; where every
   }
 }
 
+TEST_CASE("a pixel that only one machine discards is at no distance") {
+  if (!why_missing("egl").empty()) return;
+  const Folder folder;
+  const std::string shader =
+      folder.file("holes.frag",
+                  "// @input x 0.1..3\nin float x;\nout vec4 o;\n"
+                  "void main() { if ((floatBitsToInt(pow(x, 2.3)) & 1) == 1) discard; o = vec4(1.0); }\n");
+  const Run run = run_twinshade(arguments(shader, {"--ulp", "4"}));
+  CHECK(run.code == 1);
+  CHECK(run.json()["shaders"][0]["counterexample"]["output"] == "discard");
+}
+
 TEST_CASE("under --ulp what is reported is what exceeds it") {
   if (!why_missing("egl").empty()) return;
   const Folder folder;

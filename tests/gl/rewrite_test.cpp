@@ -178,7 +178,13 @@ TEST_CASE("#extension lines are lifted out") {
 TEST_CASE("names that later versions made keywords are renamed in older shaders") {
   const std::string text = "#version 330\nout vec4 color;\nvoid main() { vec4 sample = vec4(1.0); color = sample; }\n";
   CHECK(contains(tokens_of(globals(text).text), "color = twinshade_name_sample ;"));
+  for (const std::string word : {"coherent", "restrict", "readonly", "writeonly"})
+    CHECK(contains(tokens_of(globals("#version 410\nout vec4 color;\nvoid main() { vec4 " + word +
+                                     " = vec4(1.0); color = " + word + "; }\n")
+                                 .text),
+                   "color = twinshade_name_" + word + " ;"));
   CHECK(author_name("twinshade_name_buffer[2].twinshade_name_sample") == "buffer[2].sample");
+  CHECK(author_name("a_twinshade_name_b") == "a_twinshade_name_b");
   CHECK(contains(rejection("float twinshade_name_sample;\n" + kMain), "are reserved: rename twinshade_name_sample"));
   CHECK(contains(tokens_of(globals("precise out vec4 c;\nvoid main() { precise float a = 1.0; c = vec4(a); }").text),
                  "precise float a"));

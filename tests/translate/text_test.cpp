@@ -65,6 +65,9 @@ TEST_CASE("#extension takes no behaviour that glslang cannot bear") {
       CAPTURE(line);
       CHECK(has(of(std::string(version) + "#extension " + line + "\n" + body).cpp, "x"));
     }
+  CHECK(has(of("#version 330\n#define X\n#ifdef X\n#extension all : warn /* a\n b */\n#endif\n" + body).cpp, "x"));
+  CHECK(has(of("#version 330\n/* as\n   #extension all : warn  does */\n" + body).cpp, "x"));
+  CHECK_THROWS_WITH_AS(of("#version 330\n#extension all : require\n" + body), doctest::Contains("'all'"), UserError);
   CHECK_THROWS_WITH_AS(of("#version 330\n#extension all : disable\nout vec4 c;\nvoid main() { c = none; }\n"),
                        doctest::Contains("sample.frag:4"), UserError);
 }

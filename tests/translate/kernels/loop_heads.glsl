@@ -8,6 +8,6 @@ ivec4 kernel(int a, int b, float x, float y) {
   int sum = 0;
   for (int k = 0; numbers[0] < 5; step(numbers[0])) { sum += numbers[0] * b; k++; }
   for (int i = 0; i < b; step(numbers[1]), i++) { if (i == a) continue; sum += 3; }
-  for (int i = a; i < 9; step_both(i, numbers[0])) { if (sum > 40 + b) break; sum += i; }
+  for (int i = a; i < 9; step_both(i, numbers[0])) { int again = i - 1; if (again > 7) continue; if (sum > 40 + b) break; sum += i; }
   return ivec4(numbers[0], numbers[1], sum, a);
 }

@@ -15,5 +15,5 @@ void main() {
   Light all[3] = a > 5 ? lights : Light[](x, y, z);
   chosen = vec4(y.power + y.range.y, z.power, of(a).range.x, all[b % 3].power);
   Switch s = switches[a % 3];
-  equal = ivec4(s == first, s != switches[b % 3], first.on == s.on, (b > 3 ? s : first).both.y);
+  equal = ivec4(s == first && first == s, switches[b % 3] != s, first.on == s.on, (b > 3 ? s : first).both.y);
 }

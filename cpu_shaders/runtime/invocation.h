@@ -4,7 +4,7 @@
 
 #include "cpu_shaders/runtime/aggregates.h"
 #include "cpu_shaders/runtime/shader_abi.h"
-#include "cpu_shaders/runtime/texture.h"
+#include "cpu_shaders/runtime/texels_ahead.h"
 
 namespace twinshade {
 inline namespace TWINSHADE_ISA_NAMESPACE {
@@ -195,7 +195,11 @@ class ShaderBase {
 template <template <class> class S, class N>
 TWINSHADE_WHOLE static void shade_all(const ShaderData& data, const ShadeCall& call) {
   S<N> shader(data, call);
+  std::uint32_t asked = 0;
   for (std::uint32_t first = 0; first < call.count; first += N::width) {
+    if constexpr (is_simd<N>)
+      for (; call.ahead_count > 0 && asked < call.count && asked <= first + kInvocationsAhead; asked += N::width)
+        ask_for_texels<N>(data, call, asked);
     shader.begin(first);
     shader.run();
     shader.finish();

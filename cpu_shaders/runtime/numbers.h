@@ -33,6 +33,11 @@ struct Lanes {
   using samplerCube = SamplerCube<real>;
 };
 
+template <class N>
+inline constexpr bool is_simd = false;
+template <int W>
+inline constexpr bool is_simd<Lanes<W>> = true;
+
 // One invocation (W = 1), or one quad (W = 4) for shaders that use derivatives, a lane at a time.
 template <class Real, int W>
 struct Steps {

@@ -4,21 +4,11 @@
 // to transpose at all. Same operations on the same operands in the same order: same bits, held to by a test.
 #pragma once
 
-#include <array>
-
 #include "cpu_shaders/runtime/texture.h"
 
 namespace twinshade {
 inline namespace TWINSHADE_ISA_NAMESPACE {
 namespace served {
-
-template <class N>
-inline constexpr bool is_simd = false;
-template <int W>
-inline constexpr bool is_simd<Lanes<W>> = true;
-
-template <class N>
-using Colors5 = arr<vec<typename N::F, 3>, 5>;
 
 namespace detail {
 
@@ -274,81 +264,6 @@ TWINSHADE_FUNCTION auto uniform_fetch(const ExactTaps& taps, Fetch fetch) {
   return low + (fetch(taps.texel.x, taps.texel.w) * taps.weight.z + fetch(taps.texel.z, taps.texel.w) * taps.weight.w);
 }
 
-// --- RGB of five layers, 15 floats in 16
-
-inline bool has_colors_together(const TextureView& view) { return view.layer_pitch == 3; }
-
-template <class F>
-TWINSHADE_FUNCTION vec<F, 3> rgb(const vec<F, 4>& texel) {
-  return {texel.x, texel.y, texel.z};
-}
-
-template <class N>
-TWINSHADE_FUNCTION Colors5<N> filtered_5(const float* texels, const Taps<N::width>& taps) {
-  const mat<typename N::F, 4, 4> m = filtered_4(texels, taps);
-  return {{{m.c[0].x, m.c[0].y, m.c[0].z},
-           {m.c[0].w, m.c[1].x, m.c[1].y},
-           {m.c[1].z, m.c[1].w, m.c[2].x},
-           {m.c[2].y, m.c[2].z, m.c[2].w},
-           {m.c[3].x, m.c[3].y, m.c[3].z}}};
-}
-
-// As GLSL's int does.
-inline std::int32_t times(std::int32_t a, std::int32_t b) {
-  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(b));
-}
-inline std::int32_t plus(std::int32_t a, std::int32_t b) {
-  return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
-}
-
-struct LaneTexel {
-  std::int32_t x, y, layer;  // anything: clamped
-};
-
-// texels_of(lane): where the first of five layers is in the four texels. One number at a time: for policies without
-// lanes, and for layers that do not begin a five.
-template <class N, class TexelsOf>
-TWINSHADE_APART Colors5<N> colors_by_lane(const TextureView& view, const vec<typename N::F, 4>& weight,
-                                          TexelsOf texels_of) {
-  using E = typename N::F::element;
-  const auto clamp = [](std::int32_t i, std::int32_t size) { return i < 0 ? 0 : i < size ? i : size - 1; };
-  Colors5<N> colors;
-  for (int lane = 0; lane < N::width; ++lane) {
-    const std::array<LaneTexel, 4> at = texels_of(lane);
-    const E w[4] = {weight.x.lane(lane), weight.y.lane(lane), weight.z.lane(lane), weight.w.lane(lane)};
-    for (std::int32_t k = 0; k < 5; ++k)
-      for (std::int32_t c = 0; c < 3; ++c) {
-        E texel[4];
-        for (std::size_t tap = 0; tap < 4; ++tap) {
-          const std::ptrdiff_t layer = clamp(plus(at[tap].layer, k), view.layers);
-          texel[tap] =
-              E(view.texels[clamp(at[tap].y, view.height) * view.row_pitch +
-                            clamp(at[tap].x, view.width) * view.texel_pitch + layer / 5 * 16 + layer % 5 * 3 + c]);
-        }
-        const E sum = (texel[0] * w[0] + texel[1] * w[1]) + (texel[2] * w[2] + texel[3] * w[3]);
-        vec<typename N::F, 3>& color = colors.e[k];
-        (c == 0 ? color.x : c == 1 ? color.y : color.z).set_lane(lane, sum);
-      }
-  }
-  return colors;
-}
-
-// As the GLSL of sphere_map_fetch has it.
-template <class N, class Maps, class Map>
-TWINSHADE_FUNCTION vec<typename N::F, 3> sphere_map_color(const TextureView& view,
-                                                          const vec<typename N::I, 3> (&texels)[4],
-                                                          const vec<typename N::F, 4>& weight, const Maps& maps,
-                                                          const Map& map) {
-  using Ints = typename N::I;
-  const auto texel = [&](int tap) TWINSHADE_LAMBDA {
-    using twinshade::detail::clamp_to_size;
-    return twinshade::detail::fetch<typename N::real>(
-        view, clamp_to_size(texels[tap].x, view.width), clamp_to_size(texels[tap].y, view.height),
-        clamp_to_size(texels[tap].z * Ints(maps) + Ints(map), view.layers));
-  };
-  return rgb((texel(0) * weight.x + texel(1) * weight.y) + (texel(2) * weight.z + texel(3) * weight.w));
-}
-
 }  // namespace detail
 
 template <class N>
@@ -359,10 +274,6 @@ template <class N>
 inline constexpr bool has_exact_fetch_pair = is_simd<N>;
 template <class N>
 inline constexpr bool has_sphere_map_fetch = is_simd<N>;
-template <class N>
-inline constexpr bool has_exact_fetch_5 = true;
-template <class N>
-inline constexpr bool has_sphere_map_fetch_5 = true;
 
 template <class N, class Real, class ExactTaps>
 TWINSHADE_FUNCTION vec<typename N::F, 4> exact_fetch(Sampler2D<Real> map, const ExactTaps& taps) {
@@ -441,85 +352,6 @@ TWINSHADE_FUNCTION vec<typename N::F, 4> sphere_map_fetch(Sampler2DArray<Real> a
                                                           const Maps& maps, const Map& map) {
   static_assert(is_simd<N>);
   return detail::filtered<N::width>(array.view->texels, detail::locate<N>(*array.view, taps, maps, map));
-}
-
-// --- RGB of five layers: maps laid out so are read here alone, so every policy has these
-
-template <class N, class Real, class ExactTaps, Lane I>
-TWINSHADE_FUNCTION Colors5<N> exact_fetch_5(Sampler2DArray<Real> maps, const ExactTaps& taps, const I& five) {
-  const TextureView& view = *maps.view;
-  if (!detail::has_colors_together(view)) {
-    const auto layer = [&](int k) TWINSHADE_LAMBDA {
-      return detail::rgb(exact_fetch<N>(maps, taps, lanes_min(five * I(5) + I(k), I(view.layers - 1))));
-    };
-    return {{layer(0), layer(1), layer(2), layer(3), layer(4)}};
-  }
-  if constexpr (is_simd<N>) {
-    using U = typename N::U;
-    const auto first_of_five = [&] {
-      auto where = detail::locate<N>(view, taps);
-      for (auto& at : where.at) at = at + U(five.template to<std::uint32_t>() * 4u);
-      return where;
-    };
-    const I whole(static_cast<std::int32_t>(view.texel_pitch / 16));
-    if (all(five >= I(0) & five < whole)) return detail::filtered_5<N>(view.texels, first_of_five());
-    if constexpr (I::width == 1)
-      if (five.value() == whole.value() && view.texel_pitch % 16 != 0) {  // one layer is left
-        const auto only = detail::rgb(detail::filtered<N::width>(view.texels, first_of_five()));
-        return {{only, only, only, only, only}};
-      }
-  }
-  const vec<typename N::I, 4> texel(taps.texel);
-  using LaneTexel = detail::LaneTexel;
-  return detail::colors_by_lane<N>(view, vec<typename N::F, 4>(taps.weight), [&](int lane) {
-    const std::int32_t x0 = texel.x.lane(lane), y0 = texel.y.lane(lane), x1 = texel.z.lane(lane),
-                       y1 = texel.w.lane(lane);
-    const std::int32_t first = detail::times(typename N::I(five).lane(lane), 5);
-    return std::array{LaneTexel{x0, y0, first}, LaneTexel{x1, y0, first}, LaneTexel{x0, y1, first},
-                      LaneTexel{x1, y1, first}};
-  });
-}
-
-template <class N, class Real, class SphereMapTaps, Lane Maps, Lane Five>
-TWINSHADE_FUNCTION Colors5<N> sphere_map_fetch_5(Sampler2DArray<Real> array, const SphereMapTaps& taps,
-                                                 const Maps& maps, const Five& five) {
-  using Ints = typename N::I;
-  const TextureView& view = *array.view;
-  const vec<Ints, 3> texels[4] = {vec<Ints, 3>(taps.texel_00), vec<Ints, 3>(taps.texel_10), vec<Ints, 3>(taps.texel_01),
-                                  vec<Ints, 3>(taps.texel_11)};
-  const vec<typename N::F, 4> weight(taps.weight);
-  if (!detail::has_colors_together(view)) {
-    const auto map = [&](int k) TWINSHADE_LAMBDA {
-      return detail::sphere_map_color<N>(view, texels, weight, maps, Ints(five) * Ints(5) + Ints(k));
-    };
-    return {{map(0), map(1), map(2), map(3), map(4)}};
-  }
-  if constexpr (is_simd<N> && Maps::width == 1 && Five::width == 1) {
-    // Fives of maps are fives of layers, and every lane's is one that there is.
-    const Ints fives(static_cast<std::int32_t>(view.texel_pitch / 16));
-    const auto group = [&](int tap) TWINSHADE_LAMBDA { return texels[tap].z * Ints(maps.value() / 5) + Ints(five); };
-    const auto inside = [&](int tap) TWINSHADE_LAMBDA { return group(tap) >= Ints(0) & group(tap) < fives; };
-    if (maps.value() % 5 == 0 && five.value() >= 0 && five.value() < maps.value() / 5 &&
-        all(inside(0) & inside(1) & inside(2) & inside(3))) {
-      using U = typename N::U;
-      const auto at = [&](int tap) TWINSHADE_LAMBDA {
-        using twinshade::detail::clamp_to_size;
-        return twinshade::detail::texel_index(view, clamp_to_size(texels[tap].x, view.width),
-                                              clamp_to_size(texels[tap].y, view.height)) +
-               group(tap).template to<std::uint32_t>() * U(4u);
-      };
-      return detail::filtered_5<N>(view.texels, detail::Taps<N::width>{{at(0), at(1), at(2), at(3)}, weight});
-    }
-  }
-  return detail::colors_by_lane<N>(view, weight, [&](int lane) {
-    std::array<detail::LaneTexel, 4> at;
-    for (std::size_t tap = 0; tap < 4; ++tap) {
-      const std::int32_t slice = detail::times(texels[tap].z.lane(lane), Ints(maps).lane(lane));
-      at[tap] = {texels[tap].x.lane(lane), texels[tap].y.lane(lane),
-                 detail::plus(slice, detail::times(Ints(five).lane(lane), 5))};
-    }
-    return at;
-  });
 }
 
 }  // namespace served

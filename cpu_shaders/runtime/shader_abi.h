@@ -10,7 +10,7 @@
 
 namespace twinshade {
 
-inline constexpr std::uint32_t kAbiVersion = 6;
+inline constexpr std::uint32_t kAbiVersion = 7;
 
 // What a piece of translated code was built for. The numbers are an order: a machine that has avx512 has all before it.
 enum class Isa : std::uint8_t { baseline = 0, avx2 = 1, avx512 = 2 };  // baseline: x86-64-v2, or AArch64 with NEON
@@ -52,8 +52,11 @@ struct ShaderResource {
   std::uint32_t minimum_size;  // bytes that a block needs at least
   bool read_only;
   LayerOrder layer_order = LayerOrder::apart;
-  std::int32_t beside =
-      -1;  // sampler: slot of another whose texels are read together with this one's, if their sizes are equal
+  // Sampler: slot of another whose texels are read together with this one's, if their sizes are equal.
+  std::int32_t beside = -1;
+  // Sampler that is read at coordinates which are an input: its first component, and that of the layer; -1: another way.
+  // With -1 for the layer alone it is layer 0. A hint (TexelsAhead).
+  std::int32_t coordinates = -1, layer = -1;
 };
 
 struct TextureView {    // RGBA32F
@@ -77,6 +80,14 @@ struct ShaderData {  // the same for all invocations of a draw
   const std::byte* uniforms;
   const TextureView* textures;
   const BufferView* buffers;
+};
+
+// A texture whose texels are worth asking for before they are read: too large for the caches, repeating, and read at an
+// input's coordinates.
+struct TexelsAhead {
+  std::uint32_t texture;      // index into ShaderData::textures
+  std::uint32_t coordinates;  // first component, in ShadeCall::inputs
+  std::int32_t layer;         // component; -1: layer 0
 };
 
 // Where a block of compute invocations is: all of it in one work group.
@@ -109,6 +120,8 @@ struct ShadeCall {
   // Compute shaders only, whose count is a multiple of the lanes of their number type, and which use `live` and `kept`
   // alone of the above.
   const ComputeCall* compute = nullptr;
+  const TexelsAhead* ahead = nullptr;
+  std::uint32_t ahead_count = 0;
 };
 
 using ShadeFunction = void (*)(const ShaderData&, const ShadeCall&);

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "cpu_shaders/translate/served.h"
+#include "cpu_shaders/translate/texture_coordinates.h"
 
 namespace twinshade::spirv {
 namespace {
@@ -59,6 +60,7 @@ class Describer {
     }
     reflection_.uniform_bytes = (reflection_.uniform_bytes + 15) / 16 * 16;
     for (const auto& [first, second] : samplers_side_by_side(program_)) place_beside(first, second);
+    for (const auto& [sampler, at] : texture_coordinates(program_)) note_coordinates(sampler, at);
     for (const auto& [id, info] : program_.functions) {
       reflection_.discards |= info.discards;
       reflection_.has_side_effects |= info.writes_buffers;
@@ -269,6 +271,20 @@ class Describer {
     const std::uint32_t slot = result_.globals.at(first).slot, other = result_.globals.at(second).slot;
     for (ReflectedResource& r : reflection_.resources)
       if (r.kind == ResourceKind::sampler_2d_array && r.slot == slot) r.beside = static_cast<std::int32_t>(other);
+  }
+
+  void note_coordinates(Id sampler, const TextureCoordinates& at) {
+    const auto component = [&](Id input) {
+      return static_cast<std::int32_t>(result_.globals.at(input).first_component);
+    };
+    if (!result_.globals.count(sampler) || !result_.globals.count(at.coordinates)) return;
+    if (at.layer != 0 && !result_.globals.count(at.layer)) return;
+    for (ReflectedResource& r : reflection_.resources) {
+      const bool texture = r.kind == ResourceKind::sampler_2d || r.kind == ResourceKind::sampler_2d_array;
+      if (!texture || r.slot != result_.globals.at(sampler).slot) continue;
+      r.coordinates = component(at.coordinates);
+      if (at.layer != 0) r.layer = component(at.layer);
+    }
   }
 
   bool holds_opaque(Id type) const {

@@ -55,6 +55,7 @@ struct ReflectedResource {
   bool read_only = true;
   LayerOrder layer_order = LayerOrder::apart;
   std::int32_t beside = -1;
+  std::int32_t coordinates = -1, layer = -1;
 };
 
 struct Reflection {

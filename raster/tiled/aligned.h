@@ -14,7 +14,7 @@ class AlignedArray {
  public:
   AlignedArray() = default;
   explicit AlignedArray(std::size_t count)
-      : data_(static_cast<T*>(::operator new (count * sizeof(T), std::align_val_t{kCacheLine}))) {
+      : data_(static_cast<T*>(allocate_lines(count * sizeof(T))), Free{count * sizeof(T)}) {
     std::uninitialized_value_construct_n(data_.get(), count);
   }
   T* data() { return data_.get(); }
@@ -24,7 +24,8 @@ class AlignedArray {
 
  private:
   struct Free {
-    void operator()(T* p) const { ::operator delete (p, std::align_val_t{kCacheLine}); }
+    std::size_t bytes = 0;
+    void operator()(T* p) const { free_lines(p, bytes); }
   };
   std::unique_ptr<T, Free> data_;
 };

@@ -105,6 +105,8 @@ void Batch::shade(const LocalPrimitive* primitives, StageClock& clock) {
   call.outputs = outputs_.data();
   call.frag_depth = frag_depth_.data();
   call.kept = kept_.data();
+  call.ahead = draw_.bound.ahead.data();
+  call.ahead_count = std::uint32_t(draw_.bound.ahead.size());
   draw_.entry.shade(draw_.bound.data(), call);
   clock.lap(Stage::shade);
 }

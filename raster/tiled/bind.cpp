@@ -45,6 +45,9 @@ std::string attribute_name(const ShaderVariable& input, std::uint32_t element, s
   return name;
 }
 
+// More than the nearest caches hold beside what else a shader reads.
+constexpr std::size_t kLargeTexture = std::size_t{1} << 19;  // bytes
+
 class Binder {
  public:
   Binder(const Bundle& bundle, const ShaderModule& module, AttributeMode mode)
@@ -55,6 +58,7 @@ class Binder {
     bind_uniforms();
     bind_resources();
     choose_color();
+    find_texels_ahead();
     return std::move(draw_);
   }
 
@@ -255,6 +259,28 @@ class Binder {
       view->row_pitch *= 2;
       view->layer_pitch *= 2;
     }
+  }
+
+  void find_texels_ahead() {
+    for (std::uint32_t i = 0; i < module_.resource_count; ++i) {
+      const ShaderResource& resource = module_.resources[i];
+      if (resource.coordinates < 0) continue;
+      const TextureView& view = draw_.textures[resource.slot];
+      const std::size_t bytes = std::size_t(view.width) * std::size_t(view.height) * std::size_t(view.layers) *
+                                std::size_t(view.texel_pitch) * sizeof(float);
+      // Of texels with many layers a pixel reads more lines than it is worth asking for. Those of a pair are asked for
+      // with the first one's.
+      if (view.wrap != Wrap::repeat || bytes < kLargeTexture || view.texel_pitch > 8 || is_beside_another(resource))
+        continue;
+      draw_.ahead.push_back({resource.slot, std::uint32_t(resource.coordinates), resource.layer});
+    }
+  }
+
+  bool is_beside_another(const ShaderResource& resource) const {
+    return std::any_of(module_.resources, module_.resources + module_.resource_count, [&](const ShaderResource& other) {
+      return other.beside == std::int32_t(resource.slot) &&
+             draw_.textures[resource.slot].texels == draw_.textures[other.slot].texels + 4;
+    });
   }
 
   void choose_color() {

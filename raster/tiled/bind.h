@@ -23,6 +23,7 @@ struct BoundDraw {
   std::vector<std::byte> uniforms;
   std::vector<TextureView> textures;  // their texels are the bundle's or, with layers side by side, interleaved
   std::vector<AlignedArray<float>> interleaved;
+  std::vector<TexelsAhead> ahead;
   std::vector<std::vector<std::byte>> buffer_bytes;  // copies: what a shader writes is gone after the draw
   std::vector<std::string> buffer_names;
   std::vector<BufferView> buffers;

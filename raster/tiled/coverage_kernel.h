@@ -1,6 +1,6 @@
 // Which pixels a triangle covers and how deep it is there. Hierarchy: windows of 16 x 16 pixels in 64-bit arithmetic,
-// from the triangle's first block on, so that a small triangle has one; then blocks of 4 x 4, then pixels in 32 bits, W
-// at a time (after Abrash, Rasterization on Larrabee, 2009).
+// from the triangle's first block on, so that a small triangle has one; then blocks of 4 x 4, then a block's pixels in
+// 32 bits (after Abrash, Rasterization on Larrabee, 2009).
 #pragma once
 
 #include "cpu_shaders/runtime/numbers.h"
@@ -11,7 +11,14 @@
 namespace twinshade::tiled {
 inline namespace TWINSHADE_ISA_NAMESPACE {
 
-// x and y within a block of its 16 pixels, in memory order.
+// Pixels of a block, all at once whatever the registers' width: a small triangle covers parts of most of its blocks,
+// and a branch for each register costs more than lanes that are not covered.
+inline constexpr int kBlock = 16;
+using BlockFloats = Simd<float, kBlock>;
+using BlockInts = Simd<std::int32_t, kBlock>;
+using BlockMask = SimdMask<kBlock>;
+
+// x and y within a block of its pixels, in memory order.
 alignas(64) inline constexpr std::int32_t kPixelX[16] = {0, 1, 0, 1, 2, 3, 2, 3, 0, 1, 0, 1, 2, 3, 2, 3};
 alignas(64) inline constexpr std::int32_t kPixelY[16] = {0, 0, 1, 1, 0, 0, 1, 1, 2, 2, 3, 3, 2, 2, 3, 3};
 alignas(64) inline constexpr std::int32_t kBlockX[16] = {0, 4, 8, 12, 0, 4, 8, 12, 0, 4, 8, 12, 0, 4, 8, 12};
@@ -22,26 +29,23 @@ inline constexpr std::uint32_t kWindow = 16;
 // Edge values are cut off here: farther from 0 than any step within a window (15 * (|a| + |b|) < 2^29) can lead back.
 inline constexpr std::int64_t kEdgeLimit = std::int64_t{1} << 30;
 
-// Calls group(pixel index in the tile, x, y, g, inside) for each group of W pixels of which some are covered; x and y
-// are the block's lower left pixel in the frame, g counts the groups within the block.
-template <int W, class Group>
-TWINSHADE_INLINE void for_each_covered_group(const RasterTriangle& t, const CoverTile& tile, Group group) {
-  using I = Simd<std::int32_t, W>;
-  constexpr int kGroups = 16 / W;
+// Calls use(pixel index in the tile, x, y, inside) for each block of which some pixels are covered; x and y are its
+// lower left pixel in the frame.
+template <class Use>
+TWINSHADE_INLINE void for_each_covered_block(const RasterTriangle& t, const CoverTile& tile, Use use) {
+  using I = BlockInts;
 
   // Steps from a window's first pixel to its blocks' first pixels, from these to their blocks' pixels that are most
   // inside, and from a block's first pixel to all of its pixels.
   std::int64_t window_reach[3];
-  I block_step[3][kGroups], block_reach[3], pixel_step[3][kGroups];
+  I block_step[3], block_reach[3], pixel_step[3];
   for (int e = 0; e < 3; ++e) {
     const I a(t.a[e]), b(t.b[e]);
     const std::int32_t positive_a = t.a[e] > 0 ? t.a[e] : 0, positive_b = t.b[e] > 0 ? t.b[e] : 0;
     window_reach[e] = 15 * (std::int64_t(positive_a) + positive_b);
     block_reach[e] = I(3 * positive_a + 3 * positive_b);
-    for (int g = 0; g < kGroups; ++g) {
-      block_step[e][g] = a * I::load(kBlockX + g * W) + b * I::load(kBlockY + g * W);
-      pixel_step[e][g] = a * I::load(kPixelX + g * W) + b * I::load(kPixelY + g * W);
-    }
+    block_step[e] = a * I::load(kBlockX) + b * I::load(kBlockY);
+    pixel_step[e] = a * I::load(kPixelX) + b * I::load(kPixelY);
   }
 
   // The triangle's pixels within this tile.
@@ -52,12 +56,12 @@ TWINSHADE_INLINE void for_each_covered_group(const RasterTriangle& t, const Cove
 
   for (std::uint32_t y = y0 & ~3u; y <= y1; y += kWindow)
     for (std::uint32_t x = x0 & ~3u; x <= x1; x += kWindow) {
-      std::int32_t edge[3];
+      I edge[3];
       bool outside = false;
       for (int e = 0; e < 3; ++e) {
         const std::int64_t value = t.c[e] + std::int64_t(t.a[e]) * x + std::int64_t(t.b[e]) * y;
         outside |= value + window_reach[e] < 0;
-        edge[e] = std::int32_t(value < kEdgeLimit ? value : kEdgeLimit);
+        edge[e] = I(std::int32_t(value < kEdgeLimit ? value : kEdgeLimit));
       }
       if (outside) continue;
 
@@ -65,42 +69,35 @@ TWINSHADE_INLINE void for_each_covered_group(const RasterTriangle& t, const Cove
       const std::uint32_t to_column = x1 - x < 15 ? (x1 - x) / 4 : 3, to_row = y1 - y < 15 ? (y1 - y) / 4 : 3;
       const std::uint32_t in_box = (0xfu >> (3 - to_column)) * 0x1111u & 0xffffu >> (12 - 4 * to_row);
       alignas(64) std::int32_t block_edge[3][16];
-      std::uint32_t blocks = 0;
-      for (int g = 0; g < kGroups; ++g) {
-        I nearest(0);
-        for (int e = 0; e < 3; ++e) {
-          const I first = I(edge[e]) + block_step[e][g];
-          first.store(block_edge[e] + g * W);
-          nearest = nearest | (first + block_reach[e]);
-        }
-        blocks |= (nearest >= I(0)).bits() << (g * W);
+      I nearest(0);
+      for (int e = 0; e < 3; ++e) {
+        const I first = edge[e] + block_step[e];
+        first.store(block_edge[e]);
+        nearest = nearest | (first + block_reach[e]);
       }
-      blocks &= in_box;
+      const bool at_border = x + kWindow > tile.frame_width || y + kWindow > tile.frame_height;
 
-      for (; blocks != 0; blocks &= blocks - 1) {
+      for (std::uint32_t blocks = (nearest >= I(0)).bits() & in_box; blocks != 0; blocks &= blocks - 1) {
         const std::uint32_t k = std::uint32_t(__builtin_ctz(blocks));
+        I inmost(0);
+        for (int e = 0; e < 3; ++e) inmost = inmost | (I(block_edge[e][k]) + pixel_step[e]);
+        BlockMask inside = inmost >= I(0);
         const std::uint32_t frame_x = x + std::uint32_t(kBlockX[k]), frame_y = y + std::uint32_t(kBlockY[k]);
+        if (at_border)
+          inside = inside & (I::load(kPixelX) < I(std::int32_t(tile.frame_width - frame_x))) &
+                   (I::load(kPixelY) < I(std::int32_t(tile.frame_height - frame_y)));
+        if (!any(inside)) continue;
         const std::uint32_t column = (frame_x - tile.x) / 4, row = (frame_y - tile.y) / 4;
         const std::uint32_t superblock = row / 4 * superblocks_a_row + column / 4;
-        const std::uint32_t pixel = (superblock * 16 + row % 4 * 4 + column % 4) * 16;
-        for (int g = 0; g < kGroups; ++g) {
-          I nearest(0);
-          for (int e = 0; e < 3; ++e) nearest = nearest | (I(block_edge[e][k]) + pixel_step[e][g]);
-          auto inside = nearest >= I(0);
-          if (frame_x + 3 >= tile.frame_width || frame_y + 3 >= tile.frame_height)
-            inside = inside & (I::load(kPixelX + g * W) < I(std::int32_t(tile.frame_width - frame_x))) &
-                     (I::load(kPixelY + g * W) < I(std::int32_t(tile.frame_height - frame_y)));
-          if (any(inside)) group(pixel + std::uint32_t(g * W), frame_x, frame_y, g, inside);
-        }
+        use((superblock * 16 + row % 4 * 4 + column % 4) * 16, frame_x, frame_y, inside);
       }
     }
 }
 
 // Depth of a native triangle: the plane through its window z, evaluated as Mesa does where it has no fused
 // multiply-add.
-template <int W>
 struct NativeDepth {
-  using F = Simd<float, W>;
+  using F = BlockFloats;
   Plane<float> plane;
   TWINSHADE_INLINE NativeDepth(const CoverTile& tile, std::uint32_t which) {
     const NativeTriangle& native = *tile.primitives[tile.locals[which]].native;
@@ -113,9 +110,8 @@ struct NativeDepth {
   }
 };
 
-template <int W>
 struct ExactDepth {
-  using F = Simd<float, W>;
+  using F = BlockFloats;
   ExactTriangle<F> triangle;
   float scale_x, scale_y;
   TWINSHADE_INLINE ExactDepth(const CoverTile& tile, std::uint32_t which)
@@ -127,32 +123,28 @@ struct ExactDepth {
   }
 };
 
-// f(first pixel, inside, depth) for the groups of triangle `which`.
-template <int W, template <int> class Depth, class Use>
+// use(first pixel, inside, depth) for the blocks of triangle `which`.
+template <class Depth, class Use>
 TWINSHADE_INLINE void cover_with_depth(const CoverTile& tile, std::uint32_t which, Use use) {
-  using F = Simd<float, W>;
-  using I = Simd<std::int32_t, W>;
-  const Depth<W> depth(tile, which);
-  F offset_x[16 / W], offset_y[16 / W];
-  for (int g = 0; g < 16 / W; ++g) {
-    offset_x[g] = I::load(kPixelX + g * W).template to<float>() + F(0.5f);
-    offset_y[g] = I::load(kPixelY + g * W).template to<float>() + F(0.5f);
-  }
-  for_each_covered_group<W>(*tile.triangles[which], tile,
-                            [&](std::uint32_t pixel, std::uint32_t x, std::uint32_t y, int g, SimdMask<W> inside) {
-                              use(pixel, inside, depth(F(float(x)) + offset_x[g], F(float(y)) + offset_y[g]));
-                            });
+  using F = BlockFloats;
+  const Depth depth(tile, which);
+  const F offset_x = BlockInts::load(kPixelX).to<float>() + F(0.5f);
+  const F offset_y = BlockInts::load(kPixelY).to<float>() + F(0.5f);
+  for_each_covered_block(*tile.triangles[which], tile,
+                         [&](std::uint32_t pixel, std::uint32_t x, std::uint32_t y, BlockMask inside) TWINSHADE_LAMBDA {
+                           use(pixel, inside, depth(F(float(x)) + offset_x, F(float(y)) + offset_y));
+                         });
 }
 
-template <int W, template <int> class Depth>
+template <class Depth>
 void cover_all(const CoverTile& tile) {
-  using F = Simd<float, W>;
-  using U = Simd<std::uint32_t, W>;
+  using F = BlockFloats;
+  using U = Simd<std::uint32_t, kBlock>;
   for (std::uint32_t which = 0; which < tile.count; ++which) {
     const U local(tile.locals[which]);
-    cover_with_depth<W, Depth>(tile, which, [&](std::uint32_t pixel, SimdMask<W> inside, F depth) {
+    cover_with_depth<Depth>(tile, which, [&](std::uint32_t pixel, BlockMask inside, F depth) TWINSHADE_LAMBDA {
       const F old = F::load(tile.depth + pixel);
-      const SimdMask<W> nearer = inside & (depth < old);
+      const BlockMask nearer = inside & (depth < old);
       if (!any(nearer)) return;
       select(nearer, depth, old).store(tile.depth + pixel);
       select(nearer, local, U::load(tile.visible + pixel)).store(tile.visible + pixel);
@@ -160,25 +152,24 @@ void cover_all(const CoverTile& tile) {
   }
 }
 
-template <int W>
-void cover(const CoverTile& tile) {
+inline void cover(const CoverTile& tile) {
   if (tile.count == 0) return;
   if (tile.primitives->native)
-    cover_all<W, NativeDepth>(tile);
+    cover_all<NativeDepth>(tile);
   else
-    cover_all<W, ExactDepth>(tile);
+    cover_all<ExactDepth>(tile);
 }
 
-template <int W, template <int> class Depth>
+template <class Depth>
 std::uint32_t cover_quads(const CoverTile& tile, std::uint32_t which, bool early_depth_test, CoveredQuad* out) {
-  using F = Simd<float, W>;
+  using F = BlockFloats;
   std::uint32_t count = 0;
-  cover_with_depth<W, Depth>(tile, which, [&](std::uint32_t pixel, SimdMask<W> inside, F depth) {
+  cover_with_depth<Depth>(tile, which, [&](std::uint32_t pixel, BlockMask inside, F depth) TWINSHADE_LAMBDA {
     if (early_depth_test) inside = inside & (depth < F::load(tile.depth + pixel));
     const std::uint32_t bits = inside.bits();
-    float depths[W];
+    float depths[kBlock];
     depth.store(depths);
-    for (int q = 0; q < W / 4; ++q) {
+    for (int q = 0; q < kBlock / 4; ++q) {
       const std::uint32_t coverage = bits >> (4 * q) & 15u;
       if (coverage == 0) continue;
       CoveredQuad& quad = out[count++];
@@ -190,10 +181,9 @@ std::uint32_t cover_quads(const CoverTile& tile, std::uint32_t which, bool early
   return count;
 }
 
-template <int W>
-std::uint32_t cover_one(const CoverTile& tile, std::uint32_t which, bool early_depth_test, CoveredQuad* out) {
-  return tile.primitives->native ? cover_quads<W, NativeDepth>(tile, which, early_depth_test, out)
-                                 : cover_quads<W, ExactDepth>(tile, which, early_depth_test, out);
+inline std::uint32_t cover_one(const CoverTile& tile, std::uint32_t which, bool early_depth_test, CoveredQuad* out) {
+  return tile.primitives->native ? cover_quads<NativeDepth>(tile, which, early_depth_test, out)
+                                 : cover_quads<ExactDepth>(tile, which, early_depth_test, out);
 }
 
 }  // namespace TWINSHADE_ISA_NAMESPACE

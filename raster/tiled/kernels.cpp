@@ -12,7 +12,7 @@ namespace {
 
 template <int W>
 constexpr Kernels lanes_kernels(Number number) {
-  return {Isa::TWINSHADE_ISA,          number,      cover<W>, cover_one<W>, collect_visible, add_covered,
+  return {Isa::TWINSHADE_ISA,          number,      cover, cover_one, collect_visible, add_covered,
           interpolate<Simd<float, W>>, store_colors};
 }
 
@@ -27,12 +27,12 @@ constexpr Kernels kList[] = {
     lanes_kernels<16>(Number::lanes16),
 #endif
 #if TWINSHADE_NUMBERS & 8
-    {Isa::TWINSHADE_ISA, Number::scalar, cover<4>, cover_one<4>, collect_visible, add_covered,
-     interpolate<Simd<float, 4>>, store_colors},
+    {Isa::TWINSHADE_ISA, Number::scalar, cover, cover_one, collect_visible, add_covered, interpolate<Simd<float, 4>>,
+     store_colors},
 #endif
 #if TWINSHADE_NUMBERS & 16
-    {Isa::TWINSHADE_ISA, Number::float64, cover<4>, cover_one<4>, collect_visible, add_covered,
-     interpolate<Plain<double, 4>>, store_colors},
+    {Isa::TWINSHADE_ISA, Number::float64, cover, cover_one, collect_visible, add_covered, interpolate<Plain<double, 4>>,
+     store_colors},
 #endif
 };
 

@@ -2,6 +2,7 @@
 // by hand and shades nothing.
 #include <doctest/doctest.h>
 
+#include <limits>
 #include <memory>
 #include <new>
 
@@ -118,6 +119,32 @@ void check_policy() {
 TEST_CASE_TEMPLATE("inputs, outputs, masks and buffers go where the call says", N, Lanes<4>, Lanes<8>, Lanes<16>,
                    Scalar32, Quad32, Scalar64, Quad64) {
   check_policy<N>();
+}
+
+TEST_CASE_TEMPLATE("texels can be asked for at any coordinates", N, Lanes<4>, Lanes<8>, Lanes<16>) {
+  const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
+  const float odd[8] = {0, -0.001f, 0.999f, 1e9f, -3e38f, inf, -inf, nan};
+  constexpr std::uint32_t kStride = 16;
+  Aligned<float> inputs(3 * kStride);
+  for (std::uint32_t i = 0; i < kStride; ++i) {
+    inputs.data[i] = odd[i % 8];
+    inputs.data[kStride + i] = odd[i / 2];
+    inputs.data[2 * kStride + i] = float_of(i % 3 == 0 ? 0u : i % 3 == 1 ? 0x80000000u : 0x7fffffffu);
+  }
+  for (const std::int32_t size : {1, 3, 8}) {
+    const std::vector<float> texels(std::size_t(size) * std::size_t(size) * 4 * 2);
+    const TextureView view{
+        texels.data(),  size,        size, 2, size * 4, std::ptrdiff_t{size} * size * 4, TextureKind::two_d_array,
+        Filter::linear, Wrap::repeat};
+    const TexelsAhead ahead[] = {{0, 0, 2}, {0, 0, -1}};
+    ShadeCall call{};
+    call.stride = kStride;
+    call.inputs = inputs.data;
+    call.ahead = ahead;
+    call.ahead_count = 2;
+    for (std::uint32_t first = 0; first < kStride; first += N::width)
+      ask_for_texels<N>({nullptr, &view, nullptr}, call, first);
+  }
 }
 
 TEST_CASE("buffers: nothing is read or written outside the view, whatever the offset") {

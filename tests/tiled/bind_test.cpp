@@ -154,6 +154,47 @@ TEST_CASE("a number that the module has no code for is refused with its reason")
                     "shader \"echo\" has no code for float64: tone.frag:12: floatBitsToInt");
 }
 
+TEST_CASE("texels are asked for ahead where a large texture repeats") {
+  Bundle bundle = test::inside_bundle(8, 8, 1, 1);
+  const auto add = [&](const char* name, std::uint32_t size, Wrap wrap) {
+    Texture texture;
+    texture.name = name;
+    texture.kind = TextureKind::two_d_array;
+    texture.wrap = wrap;
+    texture.width = texture.height = size, texture.layers = 1;
+    texture.texels.resize(std::size_t(size) * size * 4);
+    bundle.textures.push_back(std::move(texture));
+  };
+  add("large", 256, Wrap::repeat);
+  add("small", 32, Wrap::repeat);
+  add("clamped", 256, Wrap::clamp_to_edge);
+  add("computed", 256, Wrap::repeat);
+  add("first", 256, Wrap::repeat);
+  add("second", 256, Wrap::repeat);
+  Wishes wishes;
+  wishes.textures = 6;
+  const auto array = ResourceKind::sampler_2d_array;
+  const LayerOrder apart = LayerOrder::apart;
+  wishes.resources = {
+      {"large", array, 0, 0, true, apart, -1, 3, 5},   {"small", array, 1, 0, true, apart, -1, 3, 5},
+      {"clamped", array, 2, 0, true, apart, -1, 3, 5}, {"computed", array, 3, 0, true, apart, -1, -1, -1},
+      {"first", array, 4, 0, true, apart, 5, 7, -1},   {"second", array, 5, 0, true, apart, -1, 7, -1}};
+  const auto asked = [&] { return tiled::bind(bundle, wishes.module(), AttributeMode::exact).ahead; };
+  const std::vector<TexelsAhead> ahead = asked();
+  REQUIRE(ahead.size() == 2);
+  CHECK(ahead[0].texture == 0);
+  CHECK(ahead[0].coordinates == 3);
+  CHECK(ahead[0].layer == 5);
+  CHECK(ahead[1].texture == 4);  // the second's texels lie beside the first's
+  CHECK(ahead[1].coordinates == 7);
+  CHECK(ahead[1].layer == -1);
+
+  bundle.textures[5].width = 128, bundle.textures[5].height = 512;  // another shape: not beside it
+  CHECK(asked().size() == 3);
+  wishes.resources[0].layer_order = LayerOrder::together;  // 16 floats a texel
+  CHECK(asked().size() == 2);
+}
+
 TEST_CASE("textures that are read together lie side by side, every texel where the views say") {
   Bundle bundle = test::inside_bundle(8, 8, 1, 1);
   const auto add = [&](const char* name, std::uint32_t layers) {

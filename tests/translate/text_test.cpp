@@ -194,6 +194,47 @@ TEST_CASE("reflection lists inputs, uniforms by path, resources and what the sha
   CHECK(r.no_float64_reason.empty());
 }
 
+TEST_CASE("textures that are read at an input's coordinates say which") {
+  const auto resources = [](const std::string& main) {
+    return of("#version 450\n#include \"exact/bilinear.glsl\"\nin vec4 other;\nin vec2 uv, uv2;\nflat in int layer;\n"
+              "uniform sampler2D map;\nuniform sampler2DArray maps, more;\nout vec4 c;\n" +
+              main + "\n")
+        .reflection.resources;
+  };
+  struct Read {
+    const char* main;
+    std::int32_t map, map_layer, maps, maps_layer, more;  // coordinates and layer of each
+  };
+  // Components: other 0, uv 4, uv2 6, layer 8.
+  const Read reads[] = {
+      {"void main() { ExactTaps t = exact_taps_repeat(uv2, textureSize(maps, 0).xy); mat2x4 m = exact_fetch_pair(maps, "
+       "more, t, layer); c = m[0] + m[1] + vec4(uv, other.xy); }",
+       -1, -1, 6, 8, 6},
+      {"void f() { c = exact_fetch(maps, exact_taps_repeat(uv, textureSize(maps, 0).xy), layer); }\n"
+       "void main() { f(); c += vec4(uv2, other.xy); }",
+       -1, -1, 4, 8, -1},
+      {"void main() { c = exact_bilinear_2d_repeat(map, uv) + exact_bilinear_2d_array_repeat(maps, uv2, layer) + "
+       "other; }",
+       4, -1, 6, 8, -1},
+      {"void main() { vec2 at = uv2; c = texture(map, at) + other + vec4(uv, layer, 0); }", 6, -1, -1, -1, -1},
+      // Clamped, computed, parts of an input, a layer that is no input.
+      {"void main() { c = exact_bilinear_2d(map, uv) + other + vec4(uv2, layer, 0); }", -1, -1, -1, -1, -1},
+      {"void main() { c = texture(map, uv * 2.0) + other + vec4(uv2, layer, 0); }", -1, -1, -1, -1, -1},
+      {"void main() { c = texture(map, other.xy) + vec4(uv, uv2) + vec4(layer); }", -1, -1, -1, -1, -1},
+      {"void main() { c = exact_bilinear_2d_array_repeat(maps, uv, layer + 1) + other + vec4(uv2, 0, 0); }", -1, -1, -1,
+       -1, -1},
+  };
+  for (const Read& read : reads) {
+    CAPTURE(read.main);
+    for (const ReflectedResource& r : resources(read.main)) {
+      CAPTURE(r.name);
+      const bool array = r.name == "maps";
+      CHECK(r.coordinates == (r.name == "map" ? read.map : array ? read.maps : read.more));
+      if (r.name != "more") CHECK(r.layer == (array ? read.maps_layer : read.map_layer));
+    }
+  }
+}
+
 TEST_CASE("functions of shaders/exact/ that the runtime serves leave a float64 entry although they cast bits") {
   const Translation t =
       of("#version 450\n#include \"exact/exp2.glsl\"\nin float x;\nout vec4 c;\nvoid main() { c = vec4(exact_exp2(x)); "

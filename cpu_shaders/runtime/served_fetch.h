@@ -206,28 +206,42 @@ TWINSHADE_FUNCTION void filtered_layers(const float* texels, const TapIndices<Al
     }
   } else {
     // Sums of kFloats floats for each lane: a register, or half of one.
-    constexpr int kFloats = W < 4 * count ? W : 4 * count, kLayers = kFloats / 4;
-    const auto sum = [&](int lane, int offset) TWINSHADE_LAMBDA {
-      const auto product = [&](int tap) TWINSHADE_LAMBDA {
-        Register<float, kFloats> texel;
-        std::memcpy(&texel, taps.texel(texels, tap, first + lane) + offset, sizeof texel);
-        return texel * registers::splat<float, kFloats>(weights.of[tap][first + lane]);
-      };
-      return (product(0) + product(1)) + (product(2) + product(3));
-    };
-    for (int part = 0; part < count / kLayers; ++part) {
-      Register<float, W> rows[4 * kLayers];  // rows[4 l + j]: layer l of lanes j, j + 4 ...
-      if constexpr (kFloats == W) {
-        for (int i = 0; i < W; ++i) rows[i] = sum(i, part * W);
-        transpose_blocks(rows);
-      } else {
-        for (int j = 0; j < 4; ++j) {
-          const auto a = registers::concatenate(sum(j, 0), sum(j + 4, 0));
-          const auto b = registers::concatenate(sum(j + 8, 0), sum(j + 12, 0));
-          rows[j] = even_blocks(a, b);
-          rows[4 + j] = odd_blocks(a, b);
-        }
+    constexpr int kFloats = W < 4 * count ? W : 4 * count, kLayers = kFloats / 4, kParts = count / kLayers;
+    // A lane's pointers and weights are loaded once for all parts.
+    const auto sum = [&](int lane, auto store) TWINSHADE_LAMBDA {
+      const float* texel[4];
+      Register<float, kFloats> weight[4];
+      for (int tap = 0; tap < 4; ++tap) {
+        texel[tap] = taps.texel(texels, tap, first + lane);
+        weight[tap] = registers::splat<float, kFloats>(weights.of[tap][first + lane]);
       }
+      for (int part = 0; part < kParts; ++part) {
+        const auto product = [&](int tap) TWINSHADE_LAMBDA {
+          Register<float, kFloats> floats;
+          std::memcpy(&floats, texel[tap] + part * kFloats, sizeof floats);
+          return floats * weight[tap];
+        };
+        store(part, (product(0) + product(1)) + (product(2) + product(3)));
+      }
+    };
+    Register<float, W> sums[kParts][4 * kLayers];
+    if constexpr (kFloats == W) {
+      for (int i = 0; i < W; ++i)
+        sum(i, [&](int part, const Register<float, W>& lane) TWINSHADE_LAMBDA { sums[part][i] = lane; });
+      for (auto& rows : sums) transpose_blocks(rows);
+    } else {
+      static_assert(kParts == 1);
+      for (int j = 0; j < 4; ++j) {
+        Register<float, kFloats> lanes[4];
+        for (int i = 0; i < 4; ++i)
+          sum(j + 4 * i, [&](int, const Register<float, kFloats>& lane) TWINSHADE_LAMBDA { lanes[i] = lane; });
+        const auto a = registers::concatenate(lanes[0], lanes[1]), b = registers::concatenate(lanes[2], lanes[3]);
+        sums[0][j] = even_blocks(a, b);
+        sums[0][4 + j] = odd_blocks(a, b);
+      }
+    }
+    for (int part = 0; part < kParts; ++part) {
+      const Register<float, W>(&rows)[4 * kLayers] = sums[part];  // [4 l + j]: layer l of lanes j, j + 4 ...
       for (int l = 0; l < kLayers; ++l) {
         Register<float, W> channels[4] = {rows[4 * l], rows[4 * l + 1], rows[4 * l + 2], rows[4 * l + 3]};
         registers::transpose_groups(channels);

@@ -6,8 +6,9 @@
 namespace twinshade::spirv {
 namespace {
 
-// More than this many instructions in an arm are worth a branch.
-constexpr std::size_t kMostInstructionsInArm = 24;
+// More than this many instructions in an arm are worth a branch, without those that become no code: naming variables,
+// taking values apart and putting them together.
+constexpr std::ptrdiff_t kMostInstructionsInArm = 24;
 
 bool is_pure(const Instruction& i) {
   switch (i.op) {
@@ -44,6 +45,8 @@ class Folder {
       if (i.op == spv::OpStore) ++stores_[i.operands[0]];
       if (i.op == spv::OpLoad) ++loads_[i.operands[0]];
       for (Id id : value_operands(i)) ++mentions_[id];
+      const bool chain = i.op == spv::OpAccessChain || i.op == spv::OpInBoundsAccessChain;
+      if (chain) pointers_into_[i.result] = is_free(i) && !is_buffer(i.operands[0]);
     });
     fold(body.list);
     for_each_instruction(body.list, [&](Instruction& i) {
@@ -64,9 +67,36 @@ class Folder {
     return &arm[0]->code;
   }
 
-  static bool all_pure(const std::vector<Instruction>& code, std::size_t count) {
-    return count <= kMostInstructionsInArm &&
-           std::all_of(code.begin(), code.begin() + static_cast<std::ptrdiff_t>(count), is_pure);
+  bool all_pure(const std::vector<Instruction>& code, std::size_t count) const {
+    const auto end = code.begin() + static_cast<std::ptrdiff_t>(count);
+    return std::all_of(code.begin(), end, is_pure) && std::count_if(code.begin(), end, [&](const Instruction& i) {
+                                                        return !is_free(i);
+                                                      }) <= kMostInstructionsInArm;
+  }
+
+  bool is_buffer(Id variable) const {
+    const auto v = module_.variables.find(variable);
+    return v != module_.variables.end() &&
+           (v->second.storage == spv::StorageClassUniform || v->second.storage == spv::StorageClassWorkgroup);
+  }
+
+  bool is_free(const Instruction& i) const {
+    switch (i.op) {
+      case spv::OpCopyObject:
+      case spv::OpCompositeConstruct:
+      case spv::OpCompositeExtract:
+      case spv::OpVectorShuffle:
+        return true;
+      case spv::OpAccessChain:
+      case spv::OpInBoundsAccessChain:
+        return std::all_of(i.operands.begin() + 1, i.operands.end(),
+                           [&](Id index) { return module_.is_constant(index); });
+      case spv::OpLoad:  // of a variable, a parameter, or a part of one; buffers are memory
+        if (!pointers_into_.count(i.operands[0])) return !is_buffer(i.operands[0]);
+        return pointers_into_.at(i.operands[0]);
+      default:
+        return false;
+    }
   }
 
   static void merge_neighbours(List& list) {
@@ -217,7 +247,7 @@ class Folder {
   }
 
   template <class Statements>
-  static bool pure_return(const Statements& arm, std::vector<Instruction>& code, Id& value) {
+  bool pure_return(const Statements& arm, std::vector<Instruction>& code, Id& value) {
     if (arm.empty() || arm.size() > 2 || arm.back()->shape != Shape::give_back || arm.back()->value == 0) return false;
     if (arm.size() == 2) {
       if (arm[0]->shape != Shape::code || !all_pure(arm[0]->code, arm[0]->code.size())) return false;
@@ -229,6 +259,7 @@ class Folder {
 
   Module& module_;
   std::set<Id> folded_;
+  std::unordered_map<Id, bool> pointers_into_;  // by access chain: whether it leads to a part at constant indices
   std::unordered_map<Id, int> stores_, loads_, mentions_;
 };
 

@@ -19,12 +19,8 @@ ivec3 cube_texel(int face, ivec2 texel, int width) {
   return ivec3(clamp(place, ivec2(0), ivec2(width - 1)), there);  // beyond two edges there is no texel: the weight is 0
 }
 
-SphereMapTaps sphere_map_taps(vec3 direction, int width) {
-  int face = cube_face(direction);
-  vec2 position = cube_position(face, direction, width);
-  precise vec2 cell = floor(position);
-  precise vec2 fraction = position - cell;
-  ivec2 low = ivec2(cell);
+// Where some of the four are beyond an edge. weight: of a block of the face.
+SphereMapTaps cube_taps_across_edges(int face, ivec2 low, vec4 weight, int width) {
   ivec2 high = low + 1;
   SphereMapTaps taps;
   taps.texel_00 = cube_texel(face, low, width);
@@ -32,7 +28,6 @@ SphereMapTaps sphere_map_taps(vec3 direction, int width) {
   taps.texel_01 = cube_texel(face, ivec2(low.x, high.y), width);
   taps.texel_11 = cube_texel(face, high, width);
 
-  vec4 weight = exact_bilinear_weights(fraction);
   bool right = high.x >= width;
   bool top = high.y >= width;
   bool corner = (low.x < 0 || right) && (low.y < 0 || top);
@@ -43,5 +38,18 @@ SphereMapTaps sphere_map_taps(vec3 direction, int width) {
   dealt.z = !top || right ? dealt.z : 0.0;
   dealt.w = !top || !right ? dealt.w : 0.0;
   taps.weight = corner ? dealt : weight;
+  return taps;
+}
+
+SphereMapTaps sphere_map_taps(vec3 direction, int width) {
+  int face = cube_face(direction);
+  vec2 position = cube_position(face, direction, width);
+  precise vec2 cell = floor(position);
+  precise vec2 fraction = position - cell;
+  ivec2 low = ivec2(cell);
+  ivec2 high = low + 1;
+  SphereMapTaps taps = sphere_map_block(low, high, face, exact_bilinear_weights(fraction));
+  if (low.x < 0 || low.y < 0 || high.x >= width || high.y >= width)
+    taps = cube_taps_across_edges(face, low, taps.weight, width);
   return taps;
 }

@@ -235,6 +235,20 @@ TEST_CASE("textures that are read at an input's coordinates say which") {
   }
 }
 
+TEST_CASE("choices between parts put together are selections, between long computations branches") {
+  const auto cpp = [](const std::string& body) {
+    return of("#version 450\nflat in int face;\nin vec3 p;\nout vec4 c;\n" + body + "\n").cpp;
+  };
+  const std::string turned = cpp(
+      "vec3 turned(int f, vec3 q) {\n  return f == 0 ? vec3(-q.z, -q.y, q.x) : f == 1 ? vec3(q.z, -q.y, -q.x)\n"
+      "    : f == 2 ? vec3(q.x, q.z, q.y) : f == 3 ? vec3(q.x, -q.z, -q.y) : f == 4 ? vec3(q.x, -q.y, q.z) : -q;\n}\n"
+      "void main() { c = vec4(turned(face, p), 1.0); }");
+  CHECK_FALSE(has(turned, "if (B mask"));
+  std::string product = "p.x";
+  for (int k = 0; k < 30; ++k) product += " * p.y";
+  CHECK(has(cpp("void main() { c = vec4(face == 0 ? " + product + " : p.z); }"), "if (B mask"));
+}
+
 TEST_CASE("functions of shaders/exact/ that the runtime serves leave a float64 entry although they cast bits") {
   const Translation t =
       of("#version 450\n#include \"exact/exp2.glsl\"\nin float x;\nout vec4 c;\nvoid main() { c = vec4(exact_exp2(x)); "

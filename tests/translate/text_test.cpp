@@ -195,42 +195,43 @@ TEST_CASE("reflection lists inputs, uniforms by path, resources and what the sha
 }
 
 TEST_CASE("textures that are read at an input's coordinates say which") {
-  const auto resources = [](const std::string& main) {
-    return of("#version 450\n#include \"exact/bilinear.glsl\"\nin vec4 other;\nin vec2 uv, uv2;\nflat in int layer;\n"
-              "uniform sampler2D map;\nuniform sampler2DArray maps, more;\nout vec4 c;\n" +
-              main + "\n")
-        .reflection.resources;
-  };
   struct Read {
     const char* main;
-    std::int32_t map, map_layer, maps, maps_layer, more;  // coordinates and layer of each
+    std::string map, maps, more;  // the inputs, coordinates and layer, that each is read at
   };
-  // Components: other 0, uv 4, uv2 6, layer 8.
   const Read reads[] = {
       {"void main() { ExactTaps t = exact_taps_repeat(uv2, textureSize(maps, 0).xy); mat2x4 m = exact_fetch_pair(maps, "
-       "more, t, layer); c = m[0] + m[1] + vec4(uv, other.xy); }",
-       -1, -1, 6, 8, 6},
+       "more, t, layer); c = m[0] + m[1]; }",
+       "", "uv2 layer", "uv2 layer"},
       {"void f() { c = exact_fetch(maps, exact_taps_repeat(uv, textureSize(maps, 0).xy), layer); }\n"
-       "void main() { f(); c += vec4(uv2, other.xy); }",
-       -1, -1, 4, 8, -1},
-      {"void main() { c = exact_bilinear_2d_repeat(map, uv) + exact_bilinear_2d_array_repeat(maps, uv2, layer) + "
-       "other; }",
-       4, -1, 6, 8, -1},
-      {"void main() { vec2 at = uv2; c = texture(map, at) + other + vec4(uv, layer, 0); }", 6, -1, -1, -1, -1},
+       "void main() { f(); }",
+       "", "uv layer", ""},
+      {"void main() { c = exact_bilinear_2d_repeat(map, uv) + exact_bilinear_2d_array_repeat(maps, uv2, layer); }",
+       "uv", "uv2 layer", ""},
+      {"void main() { vec2 at = uv2; c = texture(map, at); }", "uv2", "", ""},
       // Clamped, computed, parts of an input, a layer that is no input.
-      {"void main() { c = exact_bilinear_2d(map, uv) + other + vec4(uv2, layer, 0); }", -1, -1, -1, -1, -1},
-      {"void main() { c = texture(map, uv * 2.0) + other + vec4(uv2, layer, 0); }", -1, -1, -1, -1, -1},
-      {"void main() { c = texture(map, other.xy) + vec4(uv, uv2) + vec4(layer); }", -1, -1, -1, -1, -1},
-      {"void main() { c = exact_bilinear_2d_array_repeat(maps, uv, layer + 1) + other + vec4(uv2, 0, 0); }", -1, -1, -1,
-       -1, -1},
+      {"void main() { c = exact_bilinear_2d(map, uv); }", "", "", ""},
+      {"void main() { c = texture(map, uv * 2.0); }", "", "", ""},
+      {"void main() { c = texture(map, other.xy); }", "", "", ""},
+      {"void main() { c = exact_bilinear_2d_array_repeat(maps, uv, layer + 1); }", "", "", ""},
   };
   for (const Read& read : reads) {
     CAPTURE(read.main);
-    for (const ReflectedResource& r : resources(read.main)) {
-      CAPTURE(r.name);
-      const bool array = r.name == "maps";
-      CHECK(r.coordinates == (r.name == "map" ? read.map : array ? read.maps : read.more));
-      if (r.name != "more") CHECK(r.layer == (array ? read.maps_layer : read.map_layer));
+    const Reflection r = of("#version 450\n#include \"exact/bilinear.glsl\"\nin vec4 other;\nin vec2 uv, uv2;\n"
+                            "flat in int layer;\nuniform sampler2D map;\nuniform sampler2DArray maps, more;\n"
+                            "out vec4 c;\n" +
+                            std::string(read.main) + "\n")
+                             .reflection;
+    const auto input = [&](std::int32_t component) {
+      for (const ReflectedVariable& v : r.inputs)
+        if (std::int32_t(v.first_component) == component) return v.name;
+      return std::string();
+    };
+    for (const ReflectedResource& texture : r.resources) {
+      CAPTURE(texture.name);
+      std::string at = input(texture.coordinates);
+      if (texture.layer >= 0) at += " " + input(texture.layer);
+      CHECK(at == (texture.name == "map" ? read.map : texture.name == "maps" ? read.maps : read.more));
     }
   }
 }

@@ -121,12 +121,12 @@ TEST_CASE_TEMPLATE("inputs, outputs, masks and buffers go where the call says", 
   check_policy<N>();
 }
 
+// Nothing is read, so nothing can be seen of it: for the sanitizers.
 TEST_CASE_TEMPLATE("texels can be asked for at any coordinates", N, Lanes<4>, Lanes<8>, Lanes<16>) {
   const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
   const float odd[8] = {0, -0.001f, 0.999f, 1e9f, -3e38f, inf, -inf, nan};
-  constexpr std::uint32_t kStride = 16;
   Aligned<float> inputs(3 * kStride);
-  for (std::uint32_t i = 0; i < kStride; ++i) {
+  for (std::uint32_t i = 0; i < 16; ++i) {
     inputs.data[i] = odd[i % 8];
     inputs.data[kStride + i] = odd[i / 2];
     inputs.data[2 * kStride + i] = float_of(i % 3 == 0 ? 0u : i % 3 == 1 ? 0x80000000u : 0x7fffffffu);
@@ -142,7 +142,7 @@ TEST_CASE_TEMPLATE("texels can be asked for at any coordinates", N, Lanes<4>, La
     call.inputs = inputs.data;
     call.ahead = ahead;
     call.ahead_count = 2;
-    for (std::uint32_t first = 0; first < kStride; first += N::width)
+    for (std::uint32_t first = 0; first < 16; first += N::width)
       ask_for_texels<N>({nullptr, &view, nullptr}, call, first);
   }
 }

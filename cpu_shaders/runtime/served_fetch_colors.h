@@ -1,9 +1,11 @@
-// exact_fetch_5 of shaders/exact/bilinear.glsl and sphere_map_fetch_5 of shaders/sphere_map/taps.glsl: the colours of
-// five layers, which LayerOrder::colors_together lays into one cache line. Maps laid out so are read here alone, so every
-// policy has these.
+// exact_fetch_colors of shaders/exact/fetch_colors.glsl and sphere_map_fetch_colors of
+// shaders/sphere_map/fetch_colors.glsl: the colours of all layers, which LayerOrder::colors_together lays into cache
+// lines of five. Maps laid out so are read here alone, so every policy has these.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <utility>
 
 #include "cpu_shaders/runtime/served_fetch.h"
 
@@ -11,41 +13,10 @@ namespace twinshade {
 inline namespace TWINSHADE_ISA_NAMESPACE {
 namespace served {
 
-template <class N>
-using Colors5 = arr<vec<typename N::F, 3>, 5>;
+template <class N, int count>
+using Colors = arr<vec<typename N::F, 3>, count>;
 
 namespace detail {
-
-inline bool has_colors_together(const TextureView& view) { return view.layer_pitch == 3; }
-
-template <class F>
-TWINSHADE_FUNCTION vec<F, 3> rgb(const vec<F, 4>& texel) {
-  return {texel.x, texel.y, texel.z};
-}
-
-// A call: shaders fetch in many places, and this is long. It writes to the caller's, since copies of fifteen registers
-// cost.
-template <int W>
-__attribute__((noinline)) TWINSHADE_WHOLE void filter_colors_apart(const float* texels, const Taps<W>& taps,
-                                                                   arr<vec<Simd<float, W>, 3>, 5>& colors) {
-  vec<Simd<float, W>, 4> m[4];
-  if (taps.same_for_all_lanes())
-    for (int l = 0; l < 4; ++l) m[l] = filtered_once(texels, taps, 4 * l);
-  else
-    filtered_layers<W>(texels, TapIndices<W>(taps), TapWeights<W>(taps), 0, m);
-  colors.e[0] = {m[0].x, m[0].y, m[0].z};
-  colors.e[1] = {m[0].w, m[1].x, m[1].y};
-  colors.e[2] = {m[1].z, m[1].w, m[2].x};
-  colors.e[3] = {m[2].y, m[2].z, m[2].w};
-  colors.e[4] = {m[3].x, m[3].y, m[3].z};
-}
-
-template <class N>
-TWINSHADE_FUNCTION Colors5<N> filtered_5(const float* texels, const Taps<N::width>& taps) {
-  Colors5<N> colors;
-  filter_colors_apart<N::width>(texels, taps, colors);
-  return colors;
-}
 
 // As GLSL's int does.
 inline std::int32_t times(std::int32_t a, std::int32_t b) {
@@ -55,150 +26,182 @@ inline std::int32_t plus(std::int32_t a, std::int32_t b) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
 }
 
+inline bool has_colors_together(const TextureView& view) { return view.layer_pitch == 3; }
+
 struct LaneTexel {
   std::int32_t x, y, layer;  // anything: clamped
 };
 
-// texels_of(lane): where the first of five layers is in the four texels. One number at a time: for policies without
-// lanes, and for layers that do not begin a five.
-template <class N, class TexelsOf>
-TWINSHADE_APART Colors5<N> colors_by_lane(const TextureView& view, const vec<typename N::F, 4>& weight,
-                                          TexelsOf texels_of) {
-  using E = typename N::F::element;
+template <class T>
+std::array<T, 8> joined(const std::array<T, 4>& a, const std::array<T, 4>& b) {
+  return {a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3]};
+}
+
+// The sum for one lane of channel c of a layer: texels and weights of T taps. One number at a time.
+template <class E, std::size_t T>
+E weighted_color(const TextureView& view, const std::array<LaneTexel, T>& at, const std::array<E, T>& weight,
+                 std::int32_t layer, std::int32_t c) {
   const auto clamp = [](std::int32_t i, std::int32_t size) { return i < 0 ? 0 : i < size ? i : size - 1; };
-  Colors5<N> colors;
+  const auto product = [&](std::size_t tap) {
+    const std::ptrdiff_t slice = clamp(plus(at[tap].layer, layer), view.layers);
+    return E(view.texels[clamp(at[tap].y, view.height) * view.row_pitch +
+                         clamp(at[tap].x, view.width) * view.texel_pitch + slice / 5 * 16 + slice % 5 * 3 + c]) *
+           weight[tap];
+  };
+  const auto four = [&](std::size_t tap) {
+    return (product(tap) + product(tap + 1)) + (product(tap + 2) + product(tap + 3));
+  };
+  if constexpr (T == 4)
+    return four(0);
+  else
+    return four(0) + four(4);
+}
+
+// taps_of(lane): where the first layer is in the texels, and their weights. For policies without lanes, and for layers
+// that are not those of a texel's lines.
+template <class N, int count, class TapsOf>
+TWINSHADE_APART void colors_by_lane(const TextureView& view, TapsOf taps_of, Colors<N, count>& colors) {
   for (int lane = 0; lane < N::width; ++lane) {
-    const std::array<LaneTexel, 4> at = texels_of(lane);
-    const E w[4] = {weight.x.lane(lane), weight.y.lane(lane), weight.z.lane(lane), weight.w.lane(lane)};
-    for (std::int32_t k = 0; k < 5; ++k)
-      for (std::int32_t c = 0; c < 3; ++c) {
-        E texel[4];
-        for (std::size_t tap = 0; tap < 4; ++tap) {
-          const std::ptrdiff_t layer = clamp(plus(at[tap].layer, k), view.layers);
-          texel[tap] =
-              E(view.texels[clamp(at[tap].y, view.height) * view.row_pitch +
-                            clamp(at[tap].x, view.width) * view.texel_pitch + layer / 5 * 16 + layer % 5 * 3 + c]);
-        }
-        const E sum = (texel[0] * w[0] + texel[1] * w[1]) + (texel[2] * w[2] + texel[3] * w[3]);
-        vec<typename N::F, 3>& color = colors.e[k];
-        (c == 0 ? color.x : c == 1 ? color.y : color.z).set_lane(lane, sum);
-      }
+    const auto [at, weight] = taps_of(lane);
+    for (std::int32_t layer = 0; layer < count; ++layer) {
+      vec<typename N::F, 3>& color = colors.e[layer];
+      color.x.set_lane(lane, weighted_color(view, at, weight, layer, 0));
+      color.y.set_lane(lane, weighted_color(view, at, weight, layer, 1));
+      color.z.set_lane(lane, weighted_color(view, at, weight, layer, 2));
+    }
   }
-  return colors;
+}
+
+// The taps of ExactTaps in lane `lane`, in layer 0, and those of SphereMapTaps, in map 0 of `maps`.
+template <class N, class ExactTaps>
+TWINSHADE_FUNCTION std::array<LaneTexel, 4> lane_texels(const ExactTaps& taps, int lane) {
+  const vec<typename N::I, 4> texel(taps.texel);
+  const std::int32_t x0 = texel.x.lane(lane), y0 = texel.y.lane(lane), x1 = texel.z.lane(lane), y1 = texel.w.lane(lane);
+  return {{{x0, y0, 0}, {x1, y0, 0}, {x0, y1, 0}, {x1, y1, 0}}};
+}
+template <class N, class SphereMapTaps, class Maps>
+TWINSHADE_FUNCTION std::array<LaneTexel, 4> lane_texels(const SphereMapTaps& taps, const Maps& maps, int lane) {
+  const auto texel = [&](const vec<typename N::I, 3>& t) TWINSHADE_LAMBDA {
+    return LaneTexel{t.x.lane(lane), t.y.lane(lane), times(t.z.lane(lane), typename N::I(maps).lane(lane))};
+  };
+  using Texel = vec<typename N::I, 3>;
+  return {texel(Texel(taps.texel_00)), texel(Texel(taps.texel_10)), texel(Texel(taps.texel_01)),
+          texel(Texel(taps.texel_11))};
+}
+template <class N, class Taps>
+TWINSHADE_FUNCTION std::array<typename N::F::element, 4> lane_weights(const Taps& taps, int lane) {
+  const vec<typename N::F, 4> weight(taps.weight);
+  return {weight.x.lane(lane), weight.y.lane(lane), weight.z.lane(lane), weight.w.lane(lane)};
 }
 
 // As the GLSL of sphere_map_fetch has it.
-template <class N, class Maps, class Map>
-TWINSHADE_FUNCTION vec<typename N::F, 3> sphere_map_color(const TextureView& view,
-                                                          const vec<typename N::I, 3> (&texels)[4],
-                                                          const vec<typename N::F, 4>& weight, const Maps& maps,
-                                                          const Map& map) {
-  using Ints = typename N::I;
-  const auto texel = [&](int tap) TWINSHADE_LAMBDA {
+template <class N, class SphereMapTaps, class Maps>
+TWINSHADE_FUNCTION vec<typename N::F, 3> sphere_map_color(const TextureView& view, const SphereMapTaps& taps,
+                                                          const Maps& maps, int map) {
+  using I = typename N::I;
+  const auto texel = [&](const vec<I, 3>& t) TWINSHADE_LAMBDA {
     using twinshade::detail::clamp_to_size;
-    return twinshade::detail::fetch<typename N::real>(
-        view, clamp_to_size(texels[tap].x, view.width), clamp_to_size(texels[tap].y, view.height),
-        clamp_to_size(texels[tap].z * Ints(maps) + Ints(map), view.layers));
+    return twinshade::detail::fetch<typename N::real>(view, clamp_to_size(t.x, view.width),
+                                                      clamp_to_size(t.y, view.height),
+                                                      clamp_to_size(t.z * I(maps) + I(map), view.layers));
   };
-  return rgb((texel(0) * weight.x + texel(1) * weight.y) + (texel(2) * weight.z + texel(3) * weight.w));
+  const vec<typename N::F, 4> weight(taps.weight);
+  return rgb((texel(vec<I, 3>(taps.texel_00)) * weight.x + texel(vec<I, 3>(taps.texel_10)) * weight.y) +
+             (texel(vec<I, 3>(taps.texel_01)) * weight.z + texel(vec<I, 3>(taps.texel_11)) * weight.w));
 }
 
-// Five maps whose layers lie apart.
-template <class N, class Maps>
-TWINSHADE_APART Colors5<N> sphere_map_colors_from_layers(const TextureView& view,
-                                                         const vec<typename N::I, 3> (&texels)[4],
-                                                         const vec<typename N::F, 4>& weight, const Maps& maps,
-                                                         const typename N::I& five) {
-  using Ints = typename N::I;
-  const auto map = [&](int k) TWINSHADE_LAMBDA {
-    return sphere_map_color<N>(view, texels, weight, maps, five * Ints(5) + Ints(k));
-  };
-  return {{map(0), map(1), map(2), map(3), map(4)}};
+// --- of maps whose layers lie apart, as other renderers than ours have them: kept out of the shader's code
+
+template <class N, int count, class Layer>
+TWINSHADE_APART void colors_by_layer(Colors<N, count>& colors, Layer layer) {
+  for (int k = 0; k < count; ++k) colors.e[k] = layer(k);
 }
 
 }  // namespace detail
 
 template <class N>
-inline constexpr bool has_exact_fetch_5 = true;
+inline constexpr bool has_exact_fetch_colors = true;
 template <class N>
-inline constexpr bool has_sphere_map_fetch_5 = true;
+inline constexpr bool has_sphere_map_fetch_colors = true;
 
-// Of maps whose layers lie apart, as other renderers than ours have them: kept out of the shader's code.
-template <class N, class Real, class ExactTaps, Lane I>
-TWINSHADE_APART Colors5<N> exact_fetch_5_from_layers(Sampler2DArray<Real> maps, const ExactTaps& taps, const I& five) {
-  const I last(maps.view->layers - 1);
-  const auto layer = [&](int k) TWINSHADE_LAMBDA {
-    return detail::rgb(exact_fetch<N>(maps, taps, lanes_min(five * I(5) + I(k), last)));
-  };
-  return {{layer(0), layer(1), layer(2), layer(3), layer(4)}};
-}
-
-template <class N, class Real, class ExactTaps, Lane I>
-TWINSHADE_FUNCTION Colors5<N> exact_fetch_5(Sampler2DArray<Real> maps, const ExactTaps& taps, const I& five) {
+template <class N, class Real, class ExactTaps, int count>
+TWINSHADE_FUNCTION void exact_fetch_colors(Sampler2DArray<Real> maps, const ExactTaps& taps, Colors<N, count>& colors) {
+  using I = Plain<std::int32_t, 1>;
   const TextureView& view = *maps.view;
-  if (!detail::has_colors_together(view)) return exact_fetch_5_from_layers<N>(maps, taps, five);
-  if constexpr (is_simd<N>) {
-    using U = typename N::U;
-    const auto first_of_five = [&] {
-      auto where = detail::locate<N>(view, taps);
-      for (auto& at : where.at) at = at + U(five.template to<std::uint32_t>() * 4u);
-      return where;
-    };
-    const I whole(static_cast<std::int32_t>(view.texel_pitch / 16));
-    if (all(five >= I(0) & five < whole)) return detail::filtered_5<N>(view.texels, first_of_five());
-    if constexpr (I::width == 1)
-      if (five.value() == whole.value() && view.texel_pitch % 16 != 0) {  // one layer is left
-        const auto only = detail::rgb(detail::filtered<N::width>(view.texels, first_of_five()));
-        return {{only, only, only, only, only}};
-      }
-  }
-  const vec<typename N::I, 4> texel(taps.texel);
-  using LaneTexel = detail::LaneTexel;
-  return detail::colors_by_lane<N>(view, vec<typename N::F, 4>(taps.weight), [&](int lane) {
-    const std::int32_t x0 = texel.x.lane(lane), y0 = texel.y.lane(lane), x1 = texel.z.lane(lane),
-                       y1 = texel.w.lane(lane);
-    const std::int32_t first = detail::times(typename N::I(five).lane(lane), 5);
-    return std::array{LaneTexel{x0, y0, first}, LaneTexel{x1, y0, first}, LaneTexel{x0, y1, first},
-                      LaneTexel{x1, y1, first}};
-  });
+  if (!detail::has_colors_together(view))
+    return detail::colors_by_layer<N, count>(colors, [&](int k) TWINSHADE_LAMBDA {
+      return detail::rgb(exact_fetch<N>(maps, taps, I(std::min(k, view.layers - 1))));
+    });
+  if constexpr (is_simd<N>)
+    if (view.layers >= count)
+      return detail::filter_colors<count>(view.texels, detail::TapTable<N::width, 4>(detail::locate<N>(view, taps)),
+                                          colors);
+  detail::colors_by_lane<N, count>(
+      view,
+      [&](int lane) { return std::pair(detail::lane_texels<N>(taps, lane), detail::lane_weights<N>(taps, lane)); },
+      colors);
 }
 
-template <class N, class Real, class SphereMapTaps, Lane Maps, Lane Five>
-TWINSHADE_FUNCTION Colors5<N> sphere_map_fetch_5(Sampler2DArray<Real> array, const SphereMapTaps& taps,
-                                                 const Maps& maps, const Five& five) {
-  using Ints = typename N::I;
-  const TextureView& view = *array.view;
-  const vec<Ints, 3> texels[4] = {vec<Ints, 3>(taps.texel_00), vec<Ints, 3>(taps.texel_10), vec<Ints, 3>(taps.texel_01),
-                                  vec<Ints, 3>(taps.texel_11)};
-  const vec<typename N::F, 4> weight(taps.weight);
+// Sums of what two taps read.
+template <class N, class Real, class Low, class High, int count>
+TWINSHADE_FUNCTION void exact_fetch_colors(Sampler2DArray<Real> maps, const Low& low, const High& high,
+                                           Colors<N, count>& colors) {
+  using I = Plain<std::int32_t, 1>;
+  const TextureView& view = *maps.view;
   if (!detail::has_colors_together(view))
-    return detail::sphere_map_colors_from_layers<N>(view, texels, weight, maps, Ints(five));
-  if constexpr (is_simd<N> && Maps::width == 1 && Five::width == 1) {
-    // Fives of maps are fives of layers, and every lane's is one that there is.
-    const Ints fives(static_cast<std::int32_t>(view.texel_pitch / 16));
-    const auto group = [&](int tap) TWINSHADE_LAMBDA { return texels[tap].z * Ints(maps.value() / 5) + Ints(five); };
-    const auto inside = [&](int tap) TWINSHADE_LAMBDA { return group(tap) >= Ints(0) & group(tap) < fives; };
-    if (maps.value() % 5 == 0 && five.value() >= 0 && five.value() < maps.value() / 5 &&
-        all(inside(0) & inside(1) & inside(2) & inside(3))) {
-      using U = typename N::U;
+    return detail::colors_by_layer<N, count>(colors, [&](int k) TWINSHADE_LAMBDA {
+      const I layer(std::min(k, view.layers - 1));
+      return detail::rgb(exact_fetch<N>(maps, low, layer)) + detail::rgb(exact_fetch<N>(maps, high, layer));
+    });
+  if constexpr (is_simd<N>)
+    if (view.layers >= count)
+      return detail::filter_colors<count>(
+          view.texels, detail::TapTable<N::width, 8>(detail::locate<N>(view, low), detail::locate<N>(view, high)),
+          colors);
+  detail::colors_by_lane<N, count>(
+      view,
+      [&](int lane) {
+        return std::pair(detail::joined(detail::lane_texels<N>(low, lane), detail::lane_texels<N>(high, lane)),
+                         detail::joined(detail::lane_weights<N>(low, lane), detail::lane_weights<N>(high, lane)));
+      },
+      colors);
+}
+
+template <class N, class Real, class SphereMapTaps, Lane Maps, int count>
+TWINSHADE_FUNCTION void sphere_map_fetch_colors(Sampler2DArray<Real> array, const SphereMapTaps& taps, const Maps& maps,
+                                                Colors<N, count>& colors) {
+  const TextureView& view = *array.view;
+  if (!detail::has_colors_together(view))
+    return detail::colors_by_layer<N, count>(
+        colors, [&](int k) TWINSHADE_LAMBDA { return detail::sphere_map_color<N>(view, taps, maps, k); });
+  if constexpr (is_simd<N> && Maps::width == 1) {
+    using I = typename N::I;
+    using U = typename N::U;
+    // A texel's maps begin a line, and every lane has all of them.
+    const I lines(maps.value() / 5), most(view.layers / 5 - (count + 4) / 5);
+    const auto first_line = [&](const vec<I, 3>& texel) TWINSHADE_LAMBDA { return texel.z * lines; };
+    const auto inside = [&](const vec<I, 3>& texel)
+                            TWINSHADE_LAMBDA { return first_line(texel) >= I(0) & first_line(texel) <= most; };
+    const vec<I, 3> texels[4] = {vec<I, 3>(taps.texel_00), vec<I, 3>(taps.texel_10), vec<I, 3>(taps.texel_01),
+                                 vec<I, 3>(taps.texel_11)};
+    if (maps.value() % 5 == 0 && maps.value() >= 0 &&
+        all(inside(texels[0]) & inside(texels[1]) & inside(texels[2]) & inside(texels[3]))) {
       const auto at = [&](int tap) TWINSHADE_LAMBDA {
         using twinshade::detail::clamp_to_size;
         return twinshade::detail::texel_index(view, clamp_to_size(texels[tap].x, view.width),
                                               clamp_to_size(texels[tap].y, view.height)) +
-               group(tap).template to<std::uint32_t>() * U(4u);
+               first_line(texels[tap]).template to<std::uint32_t>() * U(4u);
       };
-      return detail::filtered_5<N>(view.texels, detail::Taps<N::width>{{at(0), at(1), at(2), at(3)}, weight});
+      const detail::Taps<N::width> where{{at(0), at(1), at(2), at(3)}, vec<typename N::F, 4>(taps.weight)};
+      return detail::filter_colors<count>(view.texels, detail::TapTable<N::width, 4>(where), colors);
     }
   }
-  return detail::colors_by_lane<N>(view, weight, [&](int lane) {
-    std::array<detail::LaneTexel, 4> at;
-    for (std::size_t tap = 0; tap < 4; ++tap) {
-      const std::int32_t slice = detail::times(texels[tap].z.lane(lane), Ints(maps).lane(lane));
-      at[tap] = {texels[tap].x.lane(lane), texels[tap].y.lane(lane),
-                 detail::plus(slice, detail::times(Ints(five).lane(lane), 5))};
-    }
-    return at;
-  });
+  detail::colors_by_lane<N, count>(
+      view,
+      [&](int lane) {
+        return std::pair(detail::lane_texels<N>(taps, maps, lane), detail::lane_weights<N>(taps, lane));
+      },
+      colors);
 }
 
 }  // namespace served

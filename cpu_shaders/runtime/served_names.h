@@ -9,7 +9,7 @@ namespace twinshade {
 struct ServedFunction {
   std::string_view name;
   std::string_view result;
-  std::string_view parameters;  // GLSL types, in order, separated by commas
+  std::string_view parameters;  // GLSL types, in order, separated by commas; "[]": an array of any length
 };
 
 // served::has_<name><N> says whether policy N has it, served::<name><N>(...) is it.
@@ -24,10 +24,12 @@ inline constexpr ServedFunction kServedFunctions[] = {
     {"exact_asin", "float", "float"},
     {"exact_fetch", "vec4", "sampler2D,ExactTaps"},
     {"exact_fetch", "vec4", "sampler2DArray,ExactTaps,int"},
-    {"exact_fetch_4", "mat4x4", "sampler2DArray,ExactTaps,int"},
-    {"exact_fetch_5", "vec3[5]", "sampler2DArray,ExactTaps,int"},
+    {"exact_fetch_3", "mat3x3", "sampler2DArray,ExactTaps,ExactTaps,int"},
+    {"exact_fetch_layers", "void", "sampler2DArray,ExactTaps,vec4[]"},
+    {"exact_fetch_colors", "void", "sampler2DArray,ExactTaps,vec3[]"},
+    {"exact_fetch_colors", "void", "sampler2DArray,ExactTaps,ExactTaps,vec3[]"},
     {"sphere_map_fetch", "vec4", "sampler2DArray,SphereMapTaps,int,int"},
-    {"sphere_map_fetch_5", "vec3[5]", "sampler2DArray,SphereMapTaps,int,int"},
+    {"sphere_map_fetch_colors", "void", "sampler2DArray,SphereMapTaps,int,vec3[]"},
     {"exact_fetch_pair", "mat2x4", "sampler2DArray,sampler2DArray,ExactTaps,int"},
 };
 

@@ -10,7 +10,7 @@
 
 namespace twinshade {
 
-inline constexpr std::uint32_t kAbiVersion = 7;
+inline constexpr std::uint32_t kAbiVersion = 8;
 
 // What a piece of translated code was built for. The numbers are an order: a machine that has avx512 has all before it.
 enum class Isa : std::uint8_t { baseline = 0, avx2 = 1, avx512 = 2 };  // baseline: x86-64-v2, or AArch64 with NEON
@@ -42,7 +42,7 @@ enum class ResourceKind : std::uint8_t { uniform_block, storage_buffer, sampler_
 
 // How the layers of an array texture should lie: one after another; all of a texel's side by side, RGBA; the same, but
 // RGB alone, five layers to 16 floats, of which the last is not used, and where one layer is left in the end, that
-// to 4.
+// to 8.
 enum class LayerOrder : std::uint8_t { apart, together, colors_together };
 
 struct ShaderResource {
@@ -67,7 +67,7 @@ struct TextureView {    // RGBA32F
   Filter filter;
   Wrap wrap;
   // Floats from texel x to x + 1. Above 4: all layers of a texel lie side by side, layer_pitch 4; or, with layer_pitch
-  // 3, as LayerOrder::colors_together says, which exact_fetch_5 and sphere_map_fetch_5 alone can read.
+  // 3, as LayerOrder::colors_together says, which the served fetches of colours alone can read.
   std::ptrdiff_t texel_pitch = 4;
 };
 

@@ -30,6 +30,13 @@ struct Storage {
 template <class V, class Half>
 struct Storage<V, Half, false> {
   Half lo, hi;
+  Storage() = default;
+  TWINSHADE_INLINE Storage(const Storage& o) : lo(o.lo), hi(o.hi) {}  // as Components in aggregates.h
+  TWINSHADE_INLINE Storage& operator=(const Storage& o) {
+    lo = o.lo;
+    hi = o.hi;
+    return *this;
+  }
 };
 template <class E, int W>
 struct SimdOf {
@@ -90,7 +97,7 @@ struct SimdBase : detail::Storage<Register<E, W <= kNativeLanes ? W : 4>, HalfT,
   static TWINSHADE_INLINE Derived load_elements(const E* from) {
     Derived r;
     if constexpr (whole) {
-      std::memcpy(&r.v, from, sizeof r.v);
+      r.v = registers::load<W>(from);
     } else {
       r.lo = Half::load_elements(from);
       r.hi = Half::load_elements(from + W / 2);
@@ -99,7 +106,7 @@ struct SimdBase : detail::Storage<Register<E, W <= kNativeLanes ? W : 4>, HalfT,
   }
   TWINSHADE_INLINE void store_elements(E* to) const {
     if constexpr (whole) {
-      std::memcpy(to, &this->v, sizeof this->v);
+      registers::store(to, this->v);
     } else {
       this->lo.store_elements(to);
       this->hi.store_elements(to + W / 2);

@@ -15,6 +15,11 @@ struct RegisterOf {
 };
 template <class E, int W>
 using Register = typename RegisterOf<E, W>::type;
+// The same anywhere in memory.
+template <class E, int W>
+struct RegisterInMemoryOf {
+  typedef E type __attribute__((vector_size(W * sizeof(E)), aligned(alignof(E)), may_alias));
+};
 
 using Float4 = Register<float, 4>;
 using Int4 = Register<std::int32_t, 4>;
@@ -32,6 +37,17 @@ TWINSHADE_INLINE Register<E, W> splat(E x, std::index_sequence<k...>) {
 template <class E, int W>
 TWINSHADE_INLINE Register<E, W> splat(E x) {
   return splat<E, W>(x, std::make_index_sequence<W>());
+}
+
+// Not by memcpy, which GCC does by 16 bytes where it only moves numbers from here to there: loads of a whole register
+// wait for such stores.
+template <int W, class E>
+TWINSHADE_INLINE Register<E, W> load(const E* from) {
+  return *reinterpret_cast<const typename RegisterInMemoryOf<E, W>::type*>(from);
+}
+template <class E, class V>
+TWINSHADE_INLINE void store(E* to, const V& numbers) {
+  *reinterpret_cast<typename RegisterInMemoryOf<E, sizeof(V) / sizeof(E)>::type*>(to) = numbers;
 }
 
 // Loops over lanes for targets without the instruction.
@@ -280,14 +296,6 @@ TWINSHADE_INLINE Register<E, W> gather(const E* base, Register<std::int32_t, W> 
 }
 
 // --- tables held in registers
-
-// 64-byte aligned words.
-template <int W>
-TWINSHADE_INLINE Register<std::int32_t, W> load(const std::int32_t* from) {
-  Register<std::int32_t, W> r;
-  std::memcpy(&r, __builtin_assume_aligned(from, W * 4), sizeof r);
-  return r;
-}
 
 #if defined(__AVX2__)
 TWINSHADE_INLINE Int8 permute8(Int8 table, Int8 index) {  // table[index & 7]

@@ -36,11 +36,15 @@ class Counter {
     if (info.function->name == free_) return counts_[id];
     StoredConstants stored;
     OperationCount count = list(info, info.body.list, stored);
-    if (fetches_five_colors(program_.module, *info.function)) {
-      // As served: a cache line from each of four places, 15 floats of it used.
-      count.texels = 16;
-      count.multiplications = 60;
-      count.additions = 45;
+    if (fetches_colors(program_.module, *info.function)) {
+      // As served: fives of colours are a cache line, four fetches of 16 bytes, and a last one alone is one.
+      const Function& f = *info.function;
+      const Module& module = program_.module;
+      const int colors = int(module.type(info.parameter_type(module, f.parameters.size() - 1)).count);
+      const int taps = count.texels / colors;
+      count.texels = taps * (colors / 5 * 4 + (colors % 5 == 0 ? 0 : colors % 5 == 1 ? 1 : 4));
+      count.multiplications = 3 * colors * taps;
+      count.additions = 3 * colors * (taps - 1);
     }
     return counts_[id] = count;
   }

@@ -7,8 +7,8 @@ namespace {
 
 class Finder {
  public:
-  Finder(const Program& program, const Instance& at)
-      : program_(program), module_(program.module), info_(*at.info), at_(at) {
+  Finder(const Program& program, const Instances& instances, const Instance& at)
+      : program_(program), module_(program.module), info_(*at.info), instances_(instances), at_(at) {
     for_each_instruction(info_.body.list, [&](const Instruction& i) {
       for (Id id : value_operands(i)) mentions_[id].push_back(&i);
     });
@@ -23,10 +23,12 @@ class Finder {
   }
 
  private:
-  bool is_local(Id id) const {
+  bool is_stored_in(Id id, spv::StorageClass storage) const {
     const auto v = module_.variables.find(id);
-    return v != module_.variables.end() && v->second.storage == spv::StorageClassFunction;
+    return v != module_.variables.end() && v->second.storage == storage;
   }
+  bool is_local(Id id) const { return is_stored_in(id, spv::StorageClassFunction); }
+  bool is_global(Id id) const { return is_stored_in(id, spv::StorageClassPrivate); }
 
   static std::size_t position(const std::vector<Instruction>& code, const Instruction* i) {
     return i >= code.data() && i < code.data() + code.size() ? static_cast<std::size_t>(i - code.data()) : code.size();
@@ -38,15 +40,31 @@ class Finder {
     return false;
   }
 
+  // Whether a value of the one type can be the whole or a part of one of the other.
+  bool overlap(Id a, Id b) const { return holds(a, b) || holds(b, a); }
+  bool holds(Id whole, Id part) const {
+    if (whole == part) return true;
+    const Type& t = module_.type(whole);
+    if (t.kind == Kind::array) return holds(t.element, part);
+    return t.kind == Kind::structure &&
+           std::any_of(t.members.begin(), t.members.end(), [&](Id member) { return holds(member, part); });
+  }
+
+  // A structure or an array that is passed uncopied could be the very variable, or a part of it.
+  bool may_be_passed_twice(const Instruction& i, const FunctionInfo& callee, Id variable) const {
+    for (std::size_t k = 0; k + 1 < i.operands.size(); ++k) {
+      const Id type = callee.parameter_type(module_, k);
+      const Kind kind = module_.type(type).kind;
+      if (!callee.is_reference(k) && (kind == Kind::structure || kind == Kind::array) &&
+          overlap(type, module_.variables.at(variable).type))
+        return true;
+    }
+    return false;
+  }
+
   void call(const std::vector<Instruction>& code, std::size_t at) {
     const Instruction& i = code[at];
     const FunctionInfo& callee = program_.info(i.operands[0]);
-    // A structure or an array that is passed by reference could be the very variable.
-    for (std::size_t k = 0; k + 1 < i.operands.size(); ++k) {
-      const Type& t = module_.type_of(i.operands[k + 1]);
-      const Kind kind = t.kind == Kind::pointer ? module_.type(t.element).kind : t.kind;
-      if (!callee.is_reference(k) && (kind == Kind::structure || kind == Kind::array)) return;
-    }
     std::set<Id> taken;
     for (std::size_t k = 0; k + 1 < i.operands.size(); ++k)
       if (callee.is_reference(k)) argument(code, at, i.operands[k + 1], taken);
@@ -74,9 +92,8 @@ class Finder {
     const std::size_t copied = position(code, copy);
     if (copied == code.size() || copy->op != spv::OpStore || copy->operands[1] != out->result) return;
     const Id variable = copy->operands[0];
-    if (!is_local(variable) || module_.name(variable) == "param" || info_.constant_tables.count(variable)) return;
-    if (at_.partial.count(copy) || at_.is_varying(variable) != at_.is_varying(temporary) || taken.count(variable))
-      return;
+    if (!may_stand_for(variable, temporary, code[at])) return;
+    if (at_.partial.count(copy) || taken.count(variable)) return;
     for (std::size_t k = at + 1; k < copied; ++k)
       if (touches(code[k], variable)) return;
     const Instruction* loaded = nullptr;
@@ -97,9 +114,22 @@ class Finder {
       if (skipped != nullptr) result_.skipped.insert(skipped);
   }
 
+  bool may_stand_for(Id variable, Id temporary, const Instruction& call) const {
+    const FunctionInfo& callee = program_.info(call.operands[0]);
+    bool varying = at_.is_varying(variable);
+    if (is_global(variable)) {
+      if (callee.globals_read.count(variable) || callee.globals_written.count(variable)) return false;
+      varying = instances_.varying_globals.count(variable) != 0;
+    } else if (!is_local(variable) || module_.name(variable) == "param" || info_.constant_tables.count(variable)) {
+      return false;
+    }
+    return varying == at_.is_varying(temporary) && !may_be_passed_twice(call, callee, variable);
+  }
+
   const Program& program_;
   const Module& module_;
   const FunctionInfo& info_;
+  const Instances& instances_;
   const Instance& at_;
   DirectArguments result_;
   std::map<Id, std::vector<const Instruction*>> mentions_;
@@ -107,8 +137,8 @@ class Finder {
 
 }  // namespace
 
-DirectArguments DirectArguments::find(const Program& program, const Instance& instance) {
-  return Finder(program, instance).run();
+DirectArguments DirectArguments::find(const Program& program, const Instances& instances, const Instance& instance) {
+  return Finder(program, instances, instance).run();
 }
 
 }  // namespace twinshade::spirv

@@ -10,7 +10,7 @@ struct DirectArguments {
   std::map<Id, Id> variable;             // of a temporary: what it stands for
   std::set<const Instruction*> skipped;  // the copies
 
-  static DirectArguments find(const Program& program, const Instance& instance);
+  static DirectArguments find(const Program& program, const Instances& instances, const Instance& instance);
 };
 
 }  // namespace twinshade::spirv

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "cpu_shaders/translate/emit_types.h"
 #include "cpu_shaders/translate/instances.h"
@@ -153,6 +154,8 @@ class FunctionEmitter {
 
   // --- emit_loop.cpp
   void loop(const Statement& s);
+  std::vector<std::string> written_out(const Statement& s) const;
+  std::optional<std::size_t> straight_cost(const List& statements, const Instance& at) const;
   void cases(const Statement& s);
   void masked_cases(const Statement& s);
   std::string loop_condition(const Statement& s, Id condition, bool inverted, const std::string& own_mask);

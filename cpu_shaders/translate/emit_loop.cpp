@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "cpu_shaders/translate/emit_function.h"
+#include "cpu_shaders/translate/trip_count.h"
 
 namespace twinshade::spirv {
 namespace {
@@ -39,6 +40,21 @@ bool as_increment(const std::vector<std::string>& lines, std::string& increment)
   return true;
 }
 
+// Whether all that the end of an iteration does is to move the counter.
+bool moves_only(const List& continuing, Id counter) {
+  int stores = 0;
+  bool other = false;
+  for_each_statement(continuing, [&](const Statement& s) {
+    other |= s.shape != Shape::code;
+    for (const Instruction& i : s.code) {
+      const bool store = i.op == spv::OpStore && i.operands[0] == counter;
+      stores += store;
+      other |= !store && i.op != spv::OpLoad && i.op != spv::OpIAdd && i.op != spv::OpISub;
+    }
+  });
+  return stores == 1 && !other;
+}
+
 }  // namespace
 
 // What keeps the loop going, nothing where that is always so; advances the loop's mask where lanes may differ.
@@ -68,7 +84,62 @@ std::string FunctionEmitter::loop_condition(const Statement& s, Id condition, bo
   return test + (masks_.empty() ? "any(kept)" : "any(" + mask() + " & kept)");
 }
 
+// Instructions of a list, those of inlined callees included; nothing where there is a loop among them.
+std::optional<std::size_t> FunctionEmitter::straight_cost(const List& statements, const Instance& at) const {
+  std::size_t total = 0;
+  bool loops = false;
+  for_each_statement(statements, [&](const Statement& s) {
+    loops |= s.shape == Shape::loop;
+    for (const Instruction& i : s.code) {
+      ++total;
+      const auto callee = at.callees.find(&i);
+      if (loops || callee == at.callees.end() || !callee->second->inlined) continue;
+      const auto inner = straight_cost(callee->second->info->body.list, *callee->second);
+      loops |= !inner;
+      total += inner.value_or(0);
+    }
+  });
+  return loops ? std::nullopt : std::optional(total);
+}
+
+// The values of the counter, each as C++, where the loop is better written out once for each: a short one without loops
+// inside whose turns are known, and which does something with the number. Compilers unroll such loops too late, or not
+// at all: what the number picks from an array would be looked up while the shader runs.
+std::vector<std::string> FunctionEmitter::written_out(const Statement& s) const {
+  constexpr std::size_t kMostInstructions = 1000, kMostTurns = 64;
+  const auto init = regions_.loop_init.find(&s);
+  if (shared_.readable || at_.is_masked(s) || info_.counted_loops.count(s.id) || init == regions_.loop_init.end())
+    return {};
+  const Instruction& store = *init->second;
+  if (!module_.is_constant(store.operands[1])) return {};
+  const auto counted = counted_loop(module_, info_, s, {{store.operands[0], store.operands[1]}});
+  if (!counted || counted->counter != store.operands[0] || counted->turns == 0 || counted->turns > kMostTurns ||
+      !moves_only(s.continuing, counted->counter))
+    return {};
+  const auto once = straight_cost(s.body, at_);
+  if (!once || *once * counted->turns > kMostInstructions) return {};
+  bool is_read = false, is_passed = false, is_continued = false;
+  for_each_statement(s.body, [&](const Statement& inner) {
+    is_continued |= inner.shape == Shape::next_iteration && inner.target == &s;
+    const bool is_head = &inner == s.body[0].get();  // what the test needs
+    for (const Instruction& i : inner.code) {
+      is_read |= !is_head && i.op == spv::OpLoad && i.operands[0] == counted->counter;
+      is_passed |= i.op == spv::OpFunctionCall &&
+                   std::find(i.operands.begin(), i.operands.end(), counted->counter) != i.operands.end();
+    }
+  });
+  if (!is_read || is_passed || is_continued) return {};
+  std::vector<std::string> values;
+  const bool is_signed = module_.type(module_.variables.at(counted->counter).type).kind == Kind::integer;
+  for (std::uint64_t turn = 0; turn < counted->turns; ++turn) {
+    const auto bits = static_cast<std::uint32_t>(counted->first + static_cast<std::int64_t>(turn) * counted->step);
+    values.push_back(is_signed ? "UI(" + signed_literal(bits) + ")" : "UU(" + std::to_string(bits) + "u)");
+  }
+  return values;
+}
+
 void FunctionEmitter::loop(const Statement& s) {
+  const std::vector<std::string> values = written_out(s);
   const bool masked = at_.is_masked(s);
   std::string init;
   init.swap(for_init_);
@@ -142,7 +213,15 @@ void FunctionEmitter::loop(const Statement& s) {
   std::string increment;
   const bool simple = !declares && as_increment(continuing, increment);
   const std::string open_for = "for (" + init + ";";
-  if (s.back_condition != 0 && test == nullptr && simple && increment.empty()) {
+  if (!values.empty() && simple && head.empty()) {
+    const std::string declaration = "const " + init.substr(0, init.find(" = ") + 3);
+    for (const std::string& value : values) {
+      out_.open("{");
+      out_.line(declaration + value + ";");
+      out_.append(body);
+      out_.close("}");
+    }
+  } else if (s.back_condition != 0 && test == nullptr && simple && increment.empty()) {
     if (!init.empty()) out_.line(init + ";");
     out_.line("do {");
     out_.append(body);

@@ -6,6 +6,7 @@
 #include "cpu_shaders/translate/emit_function.h"
 #include "cpu_shaders/translate/emit_reflection.h"
 #include "cpu_shaders/translate/served.h"
+#include "cpu_shaders/translate/written_first.h"
 
 namespace twinshade::spirv {
 namespace {
@@ -159,7 +160,8 @@ class ModuleEmitter {
           const std::string type = types_.name(g.type, instances_.varying_globals.count(id) != 0);
           const Id initializer = module_.variables.at(id).initializer;
           out.line(type + " " + g.name + ";");
-          reset_ += "    " + g.name + " = " + (initializer != 0 ? types_.constant(initializer) : type + "{}") + ";\n";
+          if (initializer != 0 || !is_written_first(program_, id))
+            reset_ += "    " + g.name + " = " + (initializer != 0 ? types_.constant(initializer) : type + "{}") + ";\n";
           break;
         }
         case Role::uniform:

@@ -16,7 +16,7 @@ FunctionEmitter::FunctionEmitter(Emission& shared, const Instance& instance, boo
       types_(shared.types),
       names_(shared.names),
       out_(shared.out),
-      direct_(DirectArguments::find(shared.program, instance)),
+      direct_(DirectArguments::find(shared.program, shared.instances, instance)),
       regions_(Regions::find(shared.program, instance, direct_)),
       runs_in_double_(runs_in_double) {}
 
@@ -79,7 +79,10 @@ void FunctionEmitter::run() {
   if (served) {
     const std::string& name = info_.function->name;
     // One number serves all lanes where all arguments are the same for all.
-    const std::string policy = at_.result_varying ? "N" : "Steps<typename N::real, 1>";
+    bool varying = at_.result_varying;
+    for (std::size_t k = 0; k < parameters.size(); ++k)
+      varying |= info_.is_reference(k) && at_.is_varying(parameters[k].id);
+    const std::string policy = varying ? "N" : "Steps<typename N::real, 1>";
     out_.line("if constexpr (served::has_" + name + "<N>) {");
     out_.line("  return served::" + name + "<" + policy + ">(" + argument_text + ");");
     out_.open("} else {");

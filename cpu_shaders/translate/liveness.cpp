@@ -4,6 +4,7 @@
 #include <map>
 
 #include "cpu_shaders/translate/function_info.h"
+#include "cpu_shaders/translate/served.h"
 
 namespace twinshade::spirv {
 namespace {
@@ -151,6 +152,9 @@ void compute_liveness(Program& program, FunctionInfo& info) {
   const Set entry = Liveness(program, info).run();
   for (std::size_t k = 0; k < info.function->parameters.size(); ++k)
     if (entry.count(info.function->parameters[k].id)) info.read_first_parameters.insert(k);
+  // These fill the whole of their last parameter, their GLSL element by element.
+  if (fetches_all(program.module, *info.function))
+    info.read_first_parameters.erase(info.function->parameters.size() - 1);
 }
 
 }  // namespace twinshade::spirv

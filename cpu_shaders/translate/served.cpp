@@ -8,7 +8,7 @@
 namespace twinshade::spirv {
 namespace {
 
-// A type as GLSL writes it.
+// A type as GLSL writes it, arrays without their lengths.
 std::string glsl_type(const Module& module, Id id) {
   const Type& t = module.type(id);
   const auto prefixed = [&](Id element) {
@@ -34,7 +34,7 @@ std::string glsl_type(const Module& module, Id id) {
     case Kind::matrix:
       return "mat" + std::to_string(t.count) + "x" + std::to_string(module.type(t.element).count);
     case Kind::array:
-      return glsl_type(module, t.element) + "[" + std::to_string(t.count) + "]";
+      return glsl_type(module, t.element) + "[]";
     case Kind::structure:
       return module.name(id);
     case Kind::pointer:
@@ -74,8 +74,12 @@ bool is_served_as(const Module& module, const Function& f, std::initializer_list
 
 }  // namespace
 
-bool fetches_five_colors(const Module& module, const Function& f) {
-  return is_served_as(module, f, {"exact_fetch_5", "sphere_map_fetch_5"});
+bool fetches_colors(const Module& module, const Function& f) {
+  return is_served_as(module, f, {"exact_fetch_colors", "sphere_map_fetch_colors"});
+}
+
+bool fetches_all(const Module& module, const Function& f) {
+  return fetches_colors(module, f) || is_served_as(module, f, {"exact_fetch_layers"});
 }
 
 namespace {
@@ -85,7 +89,7 @@ void follow_samplers_back(const Program& program, std::set<Id>& samplers) {
   for (std::size_t before = 0; before != samplers.size();) {
     before = samplers.size();
     for (const auto& [id, info] : program.functions) {
-      if (fetches_five_colors(program.module, *info.function)) continue;  // as good as a single instruction
+      if (fetches_colors(program.module, *info.function)) continue;  // as good as a single instruction
       for_each_instruction(info.body.list, [&, &caller = info](const Instruction& i) {
         if (i.op != spv::OpFunctionCall) return;
         const auto& parameters = program.info(i.operands[0]).function->parameters;
@@ -110,12 +114,12 @@ Id fetched_sampler(const FunctionInfo& info, const Instruction& i) {
 }  // namespace
 
 std::map<Id, LayerOrder> layer_orders(const Program& program) {
-  std::set<Id> together, five_colors, otherwise;
+  std::set<Id> together, colors, otherwise;
   for (const auto& [id, info] : program.functions) {
     const Function& f = *info.function;
-    if (is_served_as(program.module, f, {"exact_fetch_4"})) together.insert(f.parameters[0].id);
-    if (fetches_five_colors(program.module, f)) {
-      five_colors.insert(f.parameters[0].id);
+    if (is_served_as(program.module, f, {"exact_fetch_3", "exact_fetch_layers"})) together.insert(f.parameters[0].id);
+    if (fetches_colors(program.module, f)) {
+      colors.insert(f.parameters[0].id);
       continue;
     }
     for_each_instruction(info.body.list, [&, &reader = info](const Instruction& i) {
@@ -123,10 +127,10 @@ std::map<Id, LayerOrder> layer_orders(const Program& program) {
     });
   }
   follow_samplers_back(program, together);
-  follow_samplers_back(program, five_colors);
+  follow_samplers_back(program, colors);
   follow_samplers_back(program, otherwise);
   std::map<Id, LayerOrder> orders;
-  for (Id sampler : five_colors)
+  for (Id sampler : colors)
     if (!otherwise.count(sampler)) orders[sampler] = LayerOrder::colors_together;
   for (Id sampler : together) orders[sampler] = LayerOrder::together;
   return orders;

@@ -9,8 +9,10 @@ namespace twinshade::spirv {
 
 bool is_served(const Module& module, const Function& function);
 
-// exact_fetch_5 and sphere_map_fetch_5.
-bool fetches_five_colors(const Module& module, const Function& function);
+// exact_fetch_colors and sphere_map_fetch_colors, which alone read maps whose colours lie together.
+bool fetches_colors(const Module& module, const Function& function);
+// Those and exact_fetch_layers: functions that fill their last parameter, an array.
+bool fetches_all(const Module& module, const Function& function);
 
 // Functions of numbers alone are served in double: their bit casts never run there.
 bool is_served_in_double(const Module& module, const Function& function);

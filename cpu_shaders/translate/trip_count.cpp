@@ -73,7 +73,7 @@ Id only_condition(const Statement& loop) {
 
 }  // namespace
 
-std::optional<std::uint64_t> trip_count(const Module& module, const FunctionInfo& info, const Statement& loop,
+std::optional<CountedLoop> counted_loop(const Module& module, const FunctionInfo& info, const Statement& loop,
                                         const StoredConstants& before) {
   const Reader reader{module, info};
   const Id condition = only_condition(loop);
@@ -105,7 +105,13 @@ std::optional<std::uint64_t> trip_count(const Module& module, const FunctionInfo
   std::uint64_t turns = 0;
   for (std::int64_t value = *first; holds(test.op, value, *limit); value += *step)
     if (++turns > kMostTurns) return std::nullopt;
-  return turns;
+  return CountedLoop{counter, *first, *step, turns};
+}
+
+std::optional<std::uint64_t> trip_count(const Module& module, const FunctionInfo& info, const Statement& loop,
+                                        const StoredConstants& before) {
+  const auto counted = counted_loop(module, info, loop, before);
+  return counted ? std::optional(counted->turns) : std::nullopt;
 }
 
 }  // namespace twinshade::spirv

@@ -219,11 +219,12 @@ class Binder {
   }
 
   // RGB of layers side by side at each texel, five to a cache line, as LayerOrder::colors_together says; the last one
-  // repeated in a last five of more than one.
+  // repeated in a last five of more than one. One that is left takes 32 bytes: no register of eight floats of the others
+  // crosses a cache line then.
   void interleave_colors(TextureView& view) {
     const auto layers = std::size_t(view.layers);
     const std::size_t filled = layers % 5 == 1 ? layers : (layers + 4) / 5 * 5;
-    const std::size_t pitch = filled / 5 * 16 + filled % 5 * 4;
+    const std::size_t pitch = filled / 5 * 16 + filled % 5 * 8;
     const std::size_t width = std::size_t(view.width), height = std::size_t(view.height);
     AlignedArray<float>& to = draw_.interleaved.emplace_back(width * height * pitch);
     parallel_for(height, [&](std::size_t y, int) {

@@ -72,20 +72,14 @@ vec4 exact_fetch(sampler2DArray maps, ExactTaps taps, int layer) {
   return filtered;
 }
 
-// Layers first to first + 3, a column each; past the last layer, the last one.
-mat4 exact_fetch_4(sampler2DArray maps, ExactTaps taps, int first) {
+// RGB of layers first to first + 2, a column each: sums of what two taps read. Past the last layer, the last one.
+mat3 exact_fetch_3(sampler2DArray maps, ExactTaps low, ExactTaps high, int first) {
   int last = textureSize(maps, 0).z - 1;
-  return mat4(exact_fetch(maps, taps, min(first, last)), exact_fetch(maps, taps, min(first + 1, last)),
-              exact_fetch(maps, taps, min(first + 2, last)), exact_fetch(maps, taps, min(first + 3, last)));
-}
-
-// RGB of layers 5 * five to 5 * five + 4; past the last layer, the last one.
-vec3[5] exact_fetch_5(sampler2DArray maps, ExactTaps taps, int five) {
-  int first = five * 5;
-  int last = textureSize(maps, 0).z - 1;
-  return vec3[5](exact_fetch(maps, taps, min(first, last)).rgb, exact_fetch(maps, taps, min(first + 1, last)).rgb,
-                 exact_fetch(maps, taps, min(first + 2, last)).rgb, exact_fetch(maps, taps, min(first + 3, last)).rgb,
-                 exact_fetch(maps, taps, min(first + 4, last)).rgb);
+  ivec3 layer = min(ivec3(first, first + 1, first + 2), last);
+  precise vec3 a = exact_fetch(maps, low, layer.x).rgb + exact_fetch(maps, high, layer.x).rgb;
+  precise vec3 b = exact_fetch(maps, low, layer.y).rgb + exact_fetch(maps, high, layer.y).rgb;
+  precise vec3 c = exact_fetch(maps, low, layer.z).rgb + exact_fetch(maps, high, layer.z).rgb;
+  return mat3(a, b, c);
 }
 
 // The same layer of two arrays, a column each.

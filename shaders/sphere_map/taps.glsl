@@ -31,14 +31,6 @@ vec4 sphere_map_fetch(sampler2DArray array, SphereMapTaps taps, int maps, int ma
   return sphere_map_filter(t00, t10, t01, t11, taps.weight);
 }
 
-// RGB of maps 5 * five to 5 * five + 4, all of which there are.
-vec3[5] sphere_map_fetch_5(sampler2DArray array, SphereMapTaps taps, int maps, int five) {
-  int first = five * 5;
-  return vec3[5](sphere_map_fetch(array, taps, maps, first).rgb, sphere_map_fetch(array, taps, maps, first + 1).rgb,
-                 sphere_map_fetch(array, taps, maps, first + 2).rgb, sphere_map_fetch(array, taps, maps, first + 3).rgb,
-                 sphere_map_fetch(array, taps, maps, first + 4).rgb);
-}
-
 // The same from one ordinary texture of maps that are `width` texels wide: a map's layers side by side, one map above the other.
 vec4 sphere_map_fetch(sampler2D maps, SphereMapTaps taps, int width, int map) {
   ivec2 corner = ivec2(0, map * width);

@@ -3,7 +3,8 @@
 // coefficient i, probe (x, y, z) at texel (x, z * size.y + y); COEFFICIENT_COUNT, the basis' BASIS_COUNT; COEFFICIENTS_PICKED, 1 where
 // the basis reads few of them, which depend on the normal. load_coefficients() comes before the first COEF.
 // Greger, Shirley, Hubbard and Greenberg, The Irradiance Volume, 1998.
-#include "exact/bilinear.glsl"
+#define FETCHED_COLORS COEFFICIENT_COUNT
+#include "exact/fetch_colors.glsl"
 
 in vec3 v_position;             // world space
 uniform vec3 volume_origin;     // world position of probe (0, 0, 0)
@@ -43,43 +44,24 @@ vec3 volume_coefficient(int i) {
   return coefficient;
 }
 
-// Coefficients i to i + 3; past the last one, the last.
-mat4x3 volume_coefficients(int i) {
-  mat4 low = exact_fetch_4(COEFFICIENTS, volume_low, i);
-  mat4 high = exact_fetch_4(COEFFICIENTS, volume_high, i);
-  precise vec3 first = low[0].rgb + high[0].rgb;
-  precise vec3 second = low[1].rgb + high[1].rgb;
-  precise vec3 third = low[2].rgb + high[2].rgb;
-  precise vec3 fourth = low[3].rgb + high[3].rgb;
-  return mat4x3(first, second, third, fourth);
-}
-
 #if COEFFICIENTS_PICKED
 void load_coefficients() {
   place_volume_taps();
 }
 
-// Coefficients i to i + 2, of at least four in all.
+// Coefficients i to i + 2.
 mat3 volume_coefficients_3(int i) {
-  bool at_end = i > COEFFICIENT_COUNT - 4;
-  mat4x3 four = volume_coefficients(at_end ? COEFFICIENT_COUNT - 4 : i);
-  return mat3(at_end ? four[1] : four[0], at_end ? four[2] : four[1], at_end ? four[3] : four[2]);
+  return exact_fetch_3(COEFFICIENTS, volume_low, volume_high, i);
 }
 
 #define COEF(i) volume_coefficient(i)
 #define COEF_3(i) volume_coefficients_3(i)
 #else
-vec3 coefficients[(COEFFICIENT_COUNT + 3) / 4 * 4];
+vec3 coefficients[COEFFICIENT_COUNT];
 
 void load_coefficients() {
   place_volume_taps();
-  for (int i = 0; i < COEFFICIENT_COUNT; i += 4) {
-    mat4x3 four = volume_coefficients(i);
-    coefficients[i] = four[0];
-    coefficients[i + 1] = four[1];
-    coefficients[i + 2] = four[2];
-    coefficients[i + 3] = four[3];
-  }
+  exact_fetch_colors(COEFFICIENTS, volume_low, volume_high, coefficients);
 }
 
 #define COEF(i) coefficients[i]

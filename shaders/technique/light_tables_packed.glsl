@@ -4,7 +4,7 @@
 // (RGB). Three fetches where rows on their own need four, and the same bits. Iwanicki and Sloan, Normal Mapping with Low-Frequency
 // Precomputed Visibility, JGT 2012. Includer defines what light_tables_layers.glsl says.
 
-#define LIGHT_TABLE_FIVES 0
+#define LIGHT_TABLE_ALL 0
 
 uniform sampler2D LIGHT_TABLES;
 

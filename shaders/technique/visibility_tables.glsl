@@ -1,31 +1,18 @@
 // Irradiance as visibility's weights times the colours of L x H tables towards the normal, world space. Iwanicki and Sloan, Normal
 // Mapping with Low-Frequency Precomputed Visibility, JGT 2012, sections 3.1 and 3.2. Includer defines VISIBILITY_COUNT, the weights,
 // at least 4, and VISIBILITY_MEAN, 1 where one row belongs to the mean, whose weight is 1. After visibility_lightmap.glsl or
-// visibility_vertex.glsl, a sphere map and light_tables_layers.glsl or light_tables_packed.glsl, whose LIGHT_TABLE_FIVES says how many rows are read at once.
+// visibility_vertex.glsl, a sphere map and light_tables_layers.glsl or light_tables_packed.glsl, whose LIGHT_TABLE_ALL says whether all rows are read at once.
 
 // n: unit normal.
-#if LIGHT_TABLE_FIVES
+#if LIGHT_TABLE_ALL
 vec3 basis_irradiance(vec3 n) {
-  const int ROWS = VISIBILITY_COUNT + VISIBILITY_MEAN;
-  const int FIRST_ROWS = ROWS < 5 ? ROWS : 5;
-  SphereMapTaps taps = light_table_taps(n);
-  vec3 colors[5] = light_table_five(taps, 0);
-  precise vec3 irradiance = colors[VISIBILITY_MEAN] * visibility_weights(0).x;
+  load_light_tables(n);
+  precise vec3 irradiance = light_table_colors[VISIBILITY_MEAN] * visibility_weights(0).x;
 #if VISIBILITY_MEAN
-  irradiance += colors[0];
+  irradiance += light_table_colors[0];
 #endif
-  for (int row = VISIBILITY_MEAN + 1; row < FIRST_ROWS; ++row) {
-    int i = row - VISIBILITY_MEAN;
-    irradiance += colors[row] * visibility_weights(i / 4)[i & 3];
-  }
-  for (int five = 1; five < (ROWS + 4) / 5; ++five) {
-    colors = light_table_five(taps, five);
-    for (int k = 0; k < 5; ++k) {
-      int row = five * 5 + k;
-      int i = row - VISIBILITY_MEAN;
-      if (row < ROWS) irradiance += colors[k] * visibility_weights(i / 4)[i & 3];
-    }
-  }
+  for (int i = 1; i < VISIBILITY_COUNT; ++i)
+    irradiance += light_table_colors[i + VISIBILITY_MEAN] * visibility_weights(i / 4)[i & 3];
   return irradiance;
 }
 #else

@@ -37,29 +37,33 @@ void main() {
 
 // Several layers and several textures at once; layers past the last one; texels near and far apart from lane to lane.
 constexpr const char* kSeveral = R"(
-#include "exact/bilinear.glsl"
+#define FETCHED_LAYERS 2
+#include "exact/fetch_layers.glsl"
 uniform sampler2DArray maps;
 uniform sampler2DArray left;
 uniform sampler2DArray right;
 in vec2 uv;
 in float layer;
-out vec4 first[4];
-out vec4 last[4];
-out vec4 any_layer[4];
+out vec4 first[2];
+out vec3 sums[9];
+out vec3 one_for_all;
 out vec4 both[2];
 out vec4 both_at_layer[2];
 void main() {
   ExactTaps taps = exact_taps_clamp(uv, textureSize(maps, 0).xy);
-  mat4 four = exact_fetch_4(maps, taps, 0);
-  mat4 past_last = exact_fetch_4(maps, taps, 2);
-  mat4 by_lane = exact_fetch_4(maps, taps, int(layer));
+  ExactTaps high = exact_taps_clamp(uv.yx, textureSize(maps, 0).xy);
+  exact_fetch_layers(maps, taps, first);
+  mat3 three = exact_fetch_3(maps, taps, high, 0);
+  mat3 past_last = exact_fetch_3(maps, taps, high, 2);
+  mat3 by_lane = exact_fetch_3(maps, taps, high, int(layer));
+  one_for_all = exact_fetch_3(maps, exact_taps_clamp(vec2(0.3, 0.6), textureSize(maps, 0).xy), taps, 0)[1];
   taps = exact_taps_repeat(uv, textureSize(left, 0).xy);
   mat2x4 two = exact_fetch_pair(left, right, taps, 1);
   mat2x4 two_varying = exact_fetch_pair(left, right, taps, int(layer));
-  for (int i = 0; i < 4; ++i) {
-    first[i] = four[i];
-    last[i] = past_last[i];
-    any_layer[i] = by_lane[i];
+  for (int i = 0; i < 3; ++i) {
+    sums[i] = three[i];
+    sums[3 + i] = past_last[i];
+    sums[6 + i] = by_lane[i];
   }
   for (int i = 0; i < 2; ++i) {
     both[i] = two[i];
@@ -67,6 +71,20 @@ void main() {
   }
 }
 )";
+
+// All layers of a map.
+std::string layers_text(int count) {
+  return "#define FETCHED_LAYERS " + std::to_string(count) + R"(
+#include "exact/fetch_layers.glsl"
+uniform sampler2DArray maps;
+in vec2 uv;
+in float layer;
+out vec4 layers[FETCHED_LAYERS];
+void main() {
+  exact_fetch_layers(maps, exact_taps_clamp(uv + layer, textureSize(maps, 0).xy), layers);
+}
+)";
+}
 
 // Maps of one layer and of several, the last one among them.
 constexpr const char* kMaps = R"(
@@ -83,47 +101,49 @@ void main() {
 }
 )";
 
-// Five layers' colours: first, last, past the last one, before the first, by lane.
-constexpr const char* kFiveLayers = R"(
-#include "exact/bilinear.glsl"
+// The colours of all layers of a map, and sums of two.
+std::string colors_text(int count) {
+  return "#define FETCHED_COLORS " + std::to_string(count) + R"(
+#include "exact/fetch_colors.glsl"
 uniform sampler2DArray maps;
 in vec2 uv;
 in float layer;
-out vec3 colors[25];
+out vec3 colors[FETCHED_COLORS];
+out vec3 sums[FETCHED_COLORS];
+out vec3 one_for_all[FETCHED_COLORS];
 void main() {
   ExactTaps taps = exact_taps_clamp(uv, textureSize(maps, 0).xy);
-  for (int five = 0; five < 4; ++five) {
-    vec3 layers[5] = exact_fetch_5(maps, taps, five - 1);
-    for (int k = 0; k < 5; ++k) colors[five * 5 + k] = layers[k];
-  }
-  vec3 by_lane[5] = exact_fetch_5(maps, taps, int(layer));
-  for (int k = 0; k < 5; ++k) colors[20 + k] = by_lane[k];
+  exact_fetch_colors(maps, taps, colors);
+  exact_fetch_colors(maps, taps, exact_taps_clamp(vec2(uv.y, layer), textureSize(maps, 0).xy), sums);
+  exact_fetch_colors(maps, exact_taps_clamp(vec2(0.3, 0.6), textureSize(maps, 0).xy), taps, one_for_all);
 }
 )";
+}
 
-// Five maps' colours; then where maps are not whole fives.
-constexpr const char* kFiveMaps = R"(
+// The colours of the first maps of those that there are; of maps that are not whole fives, differ from lane to lane, or
+// lie beyond the last layer.
+std::string map_colors_text(int count) {
+  return R"(
 #include "sphere_map/dual_paraboloid.glsl"
+#define SPHERE_MAP_COLORS )" +
+         std::to_string(count) + R"(
+#include "sphere_map/fetch_colors.glsl"
 uniform sampler2DArray maps;
 in vec2 uv;
 in float layer;
-out vec3 colors[25];
+out vec3 whole[SPHERE_MAP_COLORS];
+out vec3 uneven[SPHERE_MAP_COLORS];
+out vec3 beyond[SPHERE_MAP_COLORS];
+out vec3 by_lane[SPHERE_MAP_COLORS];
 void main() {
   SphereMapTaps taps = sphere_map_taps(vec3(uv - 0.5, layer - 1.5), textureSize(maps, 0).x);
-  vec3 whole[5] = sphere_map_fetch_5(maps, taps, textureSize(maps, 0).z / SPHERE_MAP_LAYERS, 0);
-  vec3 uneven[5] = sphere_map_fetch_5(maps, taps, 3, 0);
-  vec3 beyond[5] = sphere_map_fetch_5(maps, taps, 5, 1);
-  vec3 second[5] = sphere_map_fetch_5(maps, taps, 10, 1);
-  vec3 by_lane[5] = sphere_map_fetch_5(maps, taps, 10, int(layer));
-  for (int k = 0; k < 5; ++k) {
-    colors[k] = whole[k];
-    colors[5 + k] = uneven[k];
-    colors[10 + k] = beyond[k];
-    colors[15 + k] = second[k];
-    colors[20 + k] = by_lane[k];
-  }
+  sphere_map_fetch_colors(maps, taps, textureSize(maps, 0).z / SPHERE_MAP_LAYERS, whole);
+  sphere_map_fetch_colors(maps, taps, 3, uneven);
+  sphere_map_fetch_colors(maps, taps, 20, beyond);
+  sphere_map_fetch_colors(maps, taps, int(layer) * 5, by_lane);
 }
 )";
+}
 
 std::vector<float> random_rows(std::size_t rows, float spread) {
   std::vector<float> inputs(3 * rows);
@@ -194,7 +214,7 @@ struct SideBySide {
   }
   TextureView colors(const TextureView& from) {
     const std::ptrdiff_t filled = from.layers % 5 == 1 ? from.layers : (from.layers + 4) / 5 * 5;
-    const std::ptrdiff_t pitch = filled / 5 * 16 + filled % 5 * 4;
+    const std::ptrdiff_t pitch = filled / 5 * 16 + filled % 5 * 8;
     texels.assign(static_cast<std::size_t>(from.width * from.height * pitch), NAN);
     for (std::ptrdiff_t y = 0; y < from.height; ++y)
       for (std::ptrdiff_t x = 0; x < from.width; ++x)
@@ -242,7 +262,7 @@ TEST_CASE("fetches of several layers or textures give the bits of their GLSL, si
   const TextureView together = four.layers(array);
   const auto [left, right] = two.pair(array, array);
   for (const float spread : {1.0f, 0.01f})  // 0.01: all lanes of a group at the same texels
-    for (const char* name : {"exact_fetch_4", "exact_fetch_pair"}) {
+    for (const char* name : {"exact_fetch_3", "exact_fetch_layers", "exact_fetch_pair"}) {
       CAPTURE(spread);
       const auto inputs = random_rows(4000, spread);
       check_served(kSeveral, name, inputs, std::array{array, array, array});
@@ -275,34 +295,52 @@ TEST_CASE("fetches of sphere maps give the bits of their GLSL, side by side in m
       check_served(kMaps, "sphere_map_fetch", random_rows(4000, spread), std::array{view});
 }
 
-TEST_CASE("fetches of five layers' colours give the bits of their GLSL, their colours side by side in memory or not") {
-  for (const std::int32_t layers : {1, 6, 9, 10, 11, 20}) {
-    CAPTURE(layers);
-    const ManyLayers array(layers);
-    SideBySide fives;
-    const TextureView together = fives.colors(array.view);
-    for (const TextureView& view : {array.view, together})
-      for (const float spread : {1.0f, 0.001f}) {
-        const auto inputs = random_rows(2000, spread);
-        const auto numbers = {Number::lanes4, Number::lanes8, Number::lanes16, Number::scalar};
-        check_served(kFiveLayers, "exact_fetch_5", inputs, std::array{view}, std::array{array.view}, numbers);
-        check_served(kFiveMaps, "sphere_map_fetch_5", inputs, std::array{view}, std::array{array.view}, numbers);
-      }
-  }
+TEST_CASE("fetches of all layers give the bits of their GLSL, side by side in memory or not, all there or not") {
+  for (const std::int32_t layers : {1, 3, 8})
+    for (const int count : {3, 5}) {  // of registers of 16: a half and a quarter; one and a quarter
+      CAPTURE(layers);
+      CAPTURE(count);
+      const ManyLayers array(layers);
+      SideBySide four;
+      const TextureView together = four.layers(array.view);
+      for (const TextureView& view : {array.view, together})
+        check_served(layers_text(count), "exact_fetch_layers", random_rows(1000, 1.0f), std::array{view});
+    }
 }
 
-TEST_CASE("in double five layers' colours are sums in double, their colours side by side in memory or not") {
+TEST_CASE(
+    "fetches of all layers' colours give the bits of their GLSL, side by side in memory or not, all there or not") {
+  for (const int count : {6, 9})  // one line and a layer that is left, two lines
+    for (const std::int32_t layers : {1, 6, 9, 10, 20}) {
+      CAPTURE(count);
+      CAPTURE(layers);
+      const ManyLayers array(layers);
+      SideBySide fives;
+      const TextureView together = fives.colors(array.view);
+      for (const TextureView& view : {array.view, together}) {
+        const auto inputs = random_rows(1000, count % 2 == 0 ? 1.0f : 0.001f);
+        const auto numbers = {Number::lanes4, Number::lanes8, Number::lanes16, Number::scalar};
+        check_served(colors_text(count), "exact_fetch_colors", inputs, std::array{view}, std::array{array.view},
+                     numbers);
+        check_served(map_colors_text(count), "sphere_map_fetch_colors", inputs, std::array{view},
+                     std::array{array.view}, numbers);
+      }
+    }
+}
+
+TEST_CASE("in double the colours of all layers are sums in double, side by side in memory or not") {
   const ManyLayers array(9);
   SideBySide fives;
   const TextureView together = fives.colors(array.view);
+  constexpr std::uint32_t kColors = 12;
   const ShaderModule& module =
-      load_module(resolve_shader("five_in_double", kFiveLayers, "five_in_double.frag"), Number::float64);
+      load_module(resolve_shader("colors_in_double", colors_text(kColors), "colors_in_double.frag"), Number::float64);
   const auto entry = std::find_if(module.entries, module.entries + module.entry_count,
                                   [](const ShaderEntry& e) { return e.number == Number::float64; });
   REQUIRE(entry != module.entries + module.entry_count);
   constexpr std::uint32_t kRows = 16;
   struct alignas(64) Arrays {
-    double inputs[3 * kRows], outputs[75 * kRows], frag_coord[4 * kRows], depth[kRows];
+    double inputs[3 * kRows], outputs[9 * kColors * kRows], frag_coord[4 * kRows], depth[kRows];
     std::uint32_t live[kRows], front[kRows], id[kRows], kept[kRows];
   };
   const auto run = [&](const TextureView& view) {
@@ -315,7 +353,7 @@ TEST_CASE("in double five layers' colours are sums in double, their colours side
     }
     entry->shade(ShaderData{nullptr, &view, nullptr},
                  ShadeCall{kRows, kRows, a.inputs, a.frag_coord, a.live, a.front, a.id, a.outputs, a.depth, a.kept});
-    return std::vector<double>(a.outputs, a.outputs + 75 * kRows);
+    return std::vector<double>(a.outputs, a.outputs + 9 * kColors * kRows);
   };
   const auto apart = run(array.view);
   CHECK(apart == run(together));
@@ -326,32 +364,37 @@ TEST_CASE("in double five layers' colours are sums in double, their colours side
   const double u = 0.3 * 4 - 0.5, v = 0.7 * 4 - 0.5 - 2;
   const double expected =
       (texel(0, 2) * (1 - u) + texel(1, 2) * u) * (1 - v) + (texel(0, 3) * (1 - u) + texel(1, 3) * u) * v;
-  CHECK(std::fabs(apart[((2 * 5 + 2) * 3 + 1) * kRows] - expected) < 1e-12);
+  CHECK(std::fabs(apart[(7 * 3 + 1) * kRows] - expected) < 1e-12);
 }
 
 TEST_CASE("the reflection says how the layers of a sampler should lie") {
   const auto order = [](const std::string& main, std::size_t resource = 0) {
     const auto reflection = translate(resolve_shader("order",
-                                                     "#include \"exact/bilinear.glsl\"\n"
+                                                     "#define FETCHED_COLORS 5\n#define FETCHED_LAYERS 2\n"
+                                                     "#include \"exact/fetch_colors.glsl\"\n"
+                                                     "#include \"exact/fetch_layers.glsl\"\n"
                                                      "uniform sampler2DArray maps;\nin vec2 uv;\nout vec4 color;\n"
-                                                     "vec3 five(sampler2DArray of, ExactTaps taps) {\n"
-                                                     "  return exact_fetch_5(of, taps, 1)[2];\n}\n" +
+                                                     "vec3 colors[5];\nvec4 layers[2];\n"
+                                                     "void five(sampler2DArray of, ExactTaps taps) {\n"
+                                                     "  exact_fetch_colors(of, taps, colors);\n}\n" +
                                                          main,
                                                      "order.frag"))
                                 .reflection;
     return reflection.resources.at(resource).layer_order;
   };
-  const std::string taps =
-      "void main() {\n  ExactTaps taps = exact_taps_clamp(uv, textureSize(maps, 0).xy);\n  color = ";
-  CHECK(order(taps + "exact_fetch(maps, taps, 0); }\n") == LayerOrder::apart);
-  CHECK(order(taps + "exact_fetch_4(maps, taps, 0)[1]; }\n") == LayerOrder::together);
-  CHECK(order(taps + "vec4(exact_fetch_5(maps, taps, 0)[1], 1.0); }\n") == LayerOrder::colors_together);
-  CHECK(order(taps + "vec4(five(maps, taps), 1.0); }\n") == LayerOrder::colors_together);
+  const std::string taps = "void main() {\n  ExactTaps taps = exact_taps_clamp(uv, textureSize(maps, 0).xy);\n";
+  const std::string five = taps + "  five(maps, taps);\n";
+  CHECK(order(taps + "color = exact_fetch(maps, taps, 0); }\n") == LayerOrder::apart);
+  CHECK(order(taps + "exact_fetch_layers(maps, taps, layers); color = layers[1]; }\n") == LayerOrder::together);
+  CHECK(order(taps + "color.rgb = exact_fetch_3(maps, taps, taps, 0)[1]; }\n") == LayerOrder::together);
+  CHECK(order(taps + "exact_fetch_colors(maps, taps, taps, colors); color.rgb = colors[1]; }\n") ==
+        LayerOrder::colors_together);
+  CHECK(order(five + "color = vec4(colors[1], 1.0); }\n") == LayerOrder::colors_together);
   // Alpha, or a single layer, can only be read in the other orders.
-  CHECK(order(taps + "vec4(five(maps, taps), 1.0) + exact_fetch(maps, taps, 0); }\n") == LayerOrder::apart);
-  CHECK(order(taps + "vec4(five(maps, taps), texelFetch(maps, ivec3(0), 0).a); }\n") == LayerOrder::apart);
-  CHECK(order(taps + "vec4(five(maps, taps), 1.0) + texture(maps, vec3(uv, 0.0)); }\n") == LayerOrder::apart);
-  CHECK(order(taps + "vec4(five(maps, taps), 1.0) + exact_fetch_4(maps, taps, 0)[1]; }\n") == LayerOrder::together);
+  CHECK(order(five + "color = exact_fetch(maps, taps, 0); }\n") == LayerOrder::apart);
+  CHECK(order(five + "color = texelFetch(maps, ivec3(0), 0); }\n") == LayerOrder::apart);
+  CHECK(order(five + "color = texture(maps, vec3(uv, 0.0)); }\n") == LayerOrder::apart);
+  CHECK(order(five + "color.rgb = exact_fetch_3(maps, taps, taps, 0)[1]; }\n") == LayerOrder::together);
 }
 
 TEST_CASE("in double the transcendentals of shaders/exact/ are good to 1e-15, not to their float polynomials") {

@@ -249,7 +249,7 @@ TEST_CASE("textures that are read together lie side by side, every texel where t
                 bundle.textures[texture]
                     .texels[std::size_t(((std::min<std::ptrdiff_t>(layer, view.layers - 1) * 2 + y) * 3 + x) * 4 + c)]);
   };
-  check_colors(0, 20, 6);   // the sixth layer by itself
+  check_colors(0, 24, 6);   // the sixth layer by itself, whole registers of eight
   check_colors(3, 32, 10);  // ten layers: the last one is there four times
   wishes.resources[0].name = "coefficients";
 

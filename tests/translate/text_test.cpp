@@ -250,6 +250,70 @@ TEST_CASE("choices between parts put together are selections, between long compu
   CHECK(has(cpp("void main() { c = vec4(face == 0 ? " + product + " : p.z); }"), "if (B mask"));
 }
 
+TEST_CASE("short loops whose turns are known are written out in compiled text, once for each value of the counter") {
+  const auto loop = [](const std::string& head, const std::string& body, bool readable = false) {
+    return of("#version 450\nin vec4 v;\nin float x;\nuniform int n;\nuniform float k[40];\nout vec4 c;\nvoid main() "
+              "{\n"
+              "  float sum = 0.0;\n  for (" +
+                  head + ") {\n" + body + "\n  }\n  c = vec4(sum);\n}\n",
+              readable)
+        .cpp;
+  };
+  const std::string sum = "    sum += k[i] * v[i & 3];";
+  const std::string up = loop("int i = 1; i < 6; i += 2", sum);
+  for (const char* value : {"UI(1)", "UI(3)", "UI(5)"}) CHECK(has(up, "const UI i = " + std::string(value) + ";"));
+  CHECK_FALSE(has(up, "const UI i = UI(7);"));
+  CHECK_FALSE(has(up, "for (UI"));
+  const std::string down = loop("uint i = 3u; i >= 1u; --i", sum);
+  for (const char* value : {"UU(3u)", "UU(2u)", "UU(1u)"}) CHECK(has(down, "const UU i = " + std::string(value) + ";"));
+  CHECK(has(loop("int i = 1; i < 6; i += 2", sum, true), "for (UI i = UI(1); i < UI(6); i = i + UI(2)) {"));
+  // Many turns, turns that are not known, lanes that part, turns that are left out, counters that the body writes.
+  for (const std::string& kept :
+       {loop("int i = 0; i < 100; ++i", "    sum += k[i & 31];"), loop("int i = 0; i < n; ++i", sum),
+        loop("int i = 0; i < 4; ++i", "    if (x < 0.5) break;\n" + sum),
+        loop("int i = 0; i < 4; ++i", "    if (n == i) continue;\n" + sum),
+        loop("int i = 0; i < 4; ++i", sum + "\n    if (n == i) ++i;"), loop("int i = 0; i < 4; ++i", "    sum += x;"),
+        loop("int i = 0; i < 4; ++i, sum *= 0.5", sum),
+        loop("int i = 0; i < 4; ++i", "    for (int j = 0; j < n; ++j) sum += k[i] * v[j & 3];")})
+    CHECK_FALSE(has(kept, "const UI i = UI(0);"));
+}
+
+TEST_CASE("globals that are written before they are read have no value to begin with") {
+  const auto global = [](const std::string& functions) {
+    return of("#version 450\nin vec3 n;\nin float x;\nuniform int count;\nout vec4 c;\nvec3 g;\nvec3 a[2];\n" +
+              functions)
+        .cpp;
+  };
+  const std::string tail = "  c = vec4(g, a[1].x);\n}\n";
+  CHECK_FALSE(has(global("void main() {\n  g = n;\n" + tail), "g = vec3{};"));
+  CHECK(has(global("void main() {\n  g = n;\n" + tail), "a = arr<uniform_vec3, 2>{};"));
+  CHECK_FALSE(has(global("void fill() { g = n; }\nvoid main() {\n  fill();\n" + tail), "g = vec3{};"));
+  for (const char* begin :
+       {"  g.x = x;\n", "  c.x = g.x;\n  g = n;\n", "  if (x > 0.5) g = n;\n", "  if (x > 0.5) discard;\n  g = n;\n",
+        "  if (x > 0.5) return;\n  g = n;\n", "  g = n;\n  if (x > 0.5) return;\n",
+        "  for (int i = 0; i < count; ++i) g = n;\n", "  if (count > 1) c = vec4(g, 1.0);\n  g = n;\n"}) {
+    CAPTURE(begin);
+    CHECK(has(global("void main() {\n" + std::string(begin) + tail), "g = vec3{};"));
+  }
+  CHECK(has(global("void fill() { if (x > 0.5) return; g = n; }\nvoid main() {\n  fill();\n" + tail), "g = vec3{};"));
+  CHECK(
+      has(global("void fill() { if (x > 0.5) discard; }\nvoid main() {\n  fill();\n  g = n;\n" + tail), "g = vec3{};"));
+}
+
+TEST_CASE("globals are passed themselves where the callee writes them, and does not know them otherwise") {
+  const auto call = [](const std::string& functions, const std::string& arguments) {
+    return of("#version 450\nin vec3 n;\nstruct S { vec3 a[2]; float f; };\nout vec4 c;\nvec3 g[2];\nS s;\n" +
+                  functions + "void main() {\n  s.f = n.x;\n  fill(" + arguments + ");\n  c = vec4(g[1], s.f);\n}\n",
+              false)
+        .cpp;
+  };
+  CHECK(has(call("void fill(out vec3 to[2]) { to[0] = n; to[1] = n.zyx; }\n", "g"), "    fill(g);"));
+  CHECK(has(call("void fill(vec3 by, out vec3 to[2]) { to[0] = n * by; to[1] = n.zyx; }\n", "n.yyy, g"), ", g);"));
+  CHECK_FALSE(has(call("void fill(out vec3 to[2]) { to[0] = n; to[1] = g[0]; }\n", "g"), "    fill(g);"));
+  // The structure could be the one that the variable is a part of.
+  CHECK_FALSE(has(call("void fill(S by, out vec3 to[2]) { to[0] = by.a[1]; to[1] = by.a[0]; }\n", "s, g"), "s, g);"));
+}
+
 TEST_CASE("functions of shaders/exact/ that the runtime serves leave a float64 entry although they cast bits") {
   const Translation t =
       of("#version 450\n#include \"exact/exp2.glsl\"\nin float x;\nout vec4 c;\nvoid main() { c = vec4(exact_exp2(x)); "

@@ -12,9 +12,3 @@ ExactTaps exact_taps_clamp(vec2 uv, ivec2 size) {
 vec4 exact_fetch(sampler2DArray maps, ExactTaps taps, int layer) {
   return texture(maps, vec3(taps.uv, float(layer)));
 }
-
-mat4 exact_fetch_4(sampler2DArray maps, ExactTaps taps, int first) {
-  int last = textureSize(maps, 0).z - 1;
-  return mat4(exact_fetch(maps, taps, first), exact_fetch(maps, taps, min(first + 1, last)),
-              exact_fetch(maps, taps, min(first + 2, last)), exact_fetch(maps, taps, min(first + 3, last)));
-}

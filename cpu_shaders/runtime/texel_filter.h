@@ -1,0 +1,316 @@
+// Bilinear filters of lanes. Sums are done on whole texels, four lanes' RGBA to a register group or one lane's floats
+// to a row, and transposed once, where GLSL as written would transpose each texel. Where all lanes read the same four
+// texels there is nothing to transpose at all.
+#pragma once
+
+#include "cpu_shaders/runtime/texture.h"
+
+namespace twinshade {
+inline namespace TWINSHADE_ISA_NAMESPACE {
+namespace served {
+namespace detail {
+
+// A lane's value in all four channels of its texel, in the layout of transpose_groups' row j.
+template <int j, class V>
+TWINSHADE_FUNCTION V spread_lane(const V& lanes) {
+  return [&]<int... k>(std::integer_sequence<int, k...>) TWINSHADE_LAMBDA {
+    return __builtin_shufflevector(lanes, lanes, (k / 4 * 4 + j)...);
+  }
+  (std::make_integer_sequence<int, sizeof(V) / 4>());
+}
+
+// The four texels of W lanes, in fours of floats from the texture's first, and their weights: (x0,y0) (x1,y0) (x0,y1)
+// (x1,y1).
+template <int W>
+struct Taps {
+  using U = Simd<std::uint32_t, W>;
+  vec<U, 4> at;
+  vec<Simd<float, W>, 4> weight;
+
+  TWINSHADE_INLINE bool same_for_all_lanes() const {
+    const auto same = [](const U& tap) TWINSHADE_LAMBDA { return tap == U(tap.lane(0)); };
+    return all(same(at.x) & same(at.y) & same(at.z) & same(at.w));
+  }
+  TWINSHADE_INLINE void move_by(const U& offset) { at = at + offset; }
+};
+// In memory, in twos of floats, the largest scale that an x86 address has.
+template <int W>
+TWINSHADE_FUNCTION void store_in_twos(const vec<Simd<std::uint32_t, W>, 4>& at, std::uint32_t (*to)[W]) {
+  (at.x + at.x).store(to[0]);
+  (at.y + at.y).store(to[1]);
+  (at.z + at.z).store(to[2]);
+  (at.w + at.w).store(to[3]);
+}
+
+// Where lanes are taken one by one.
+template <int W>
+struct TapIndices {
+  alignas(64) std::uint32_t at[4][W];
+  TWINSHADE_INLINE explicit TapIndices(const Taps<W>& taps) {
+    store_in_twos(taps.at, at);
+    __asm__("" : "+m"(at));  // really through memory: compilers would take registers apart lane by lane
+  }
+  TWINSHADE_INLINE const float* texel(const float* texels, int tap, int lane) const {
+    return texels + std::size_t{at[tap][lane]} * 2;
+  }
+};
+
+// --- one layer
+
+// Lanes first .. first + W - 1 of the whole.
+template <int W, int All>
+TWINSHADE_FUNCTION vec<Simd<float, W>, 4> filtered_texels(const float* texels, const TapIndices<All>& taps, int first,
+                                                          const vec<Simd<float, W>, 4>& weight) {
+  if constexpr (Simd<float, W>::whole) {
+    Register<float, W> rows[4];
+    const auto row = [&]<int j>(std::integral_constant<int, j>) TWINSHADE_LAMBDA {
+      const auto texel = [&](int tap) TWINSHADE_LAMBDA {
+        return registers::texel_row<W>(
+            [&](int i) TWINSHADE_LAMBDA { return registers::load_texel(taps.texel(texels, tap, first + i), 0); }, j);
+      };
+      rows[j] = (texel(0) * spread_lane<j>(weight.x.v) + texel(1) * spread_lane<j>(weight.y.v)) +
+                (texel(2) * spread_lane<j>(weight.z.v) + texel(3) * spread_lane<j>(weight.w.v));
+    };
+    row(std::integral_constant<int, 0>());
+    row(std::integral_constant<int, 1>());
+    row(std::integral_constant<int, 2>());
+    row(std::integral_constant<int, 3>());
+    registers::transpose_groups(rows);
+    vec<Simd<float, W>, 4> rgba;
+    rgba.x.v = rows[0], rgba.y.v = rows[1], rgba.z.v = rows[2], rgba.w.v = rows[3];
+    return rgba;
+  } else {
+    using Half = vec<Simd<float, W / 2>, 4>;
+    const auto low =
+        filtered_texels<W / 2>(texels, taps, first, Half(weight.x.lo, weight.y.lo, weight.z.lo, weight.w.lo));
+    const auto high =
+        filtered_texels<W / 2>(texels, taps, first + W / 2, Half(weight.x.hi, weight.y.hi, weight.z.hi, weight.w.hi));
+    vec<Simd<float, W>, 4> rgba;
+    rgba.x.lo = low.x, rgba.y.lo = low.y, rgba.z.lo = low.z, rgba.w.lo = low.w;
+    rgba.x.hi = high.x, rgba.y.hi = high.y, rgba.z.hi = high.z, rgba.w.hi = high.w;
+    return rgba;
+  }
+}
+
+// Where the four texels are the same for all lanes: their numbers, times each lane's weights. From float `first` on.
+template <int W>
+TWINSHADE_FUNCTION vec<Simd<float, W>, 4> filtered_once(const float* texels, const Taps<W>& taps, int first) {
+  using F = Simd<float, W>;
+  const auto texel = [&](const auto& tap) TWINSHADE_LAMBDA { return texels + std::size_t{tap.lane(0)} * 4 + first; };
+  const float *const x = texel(taps.at.x), *const y = texel(taps.at.y), *const z = texel(taps.at.z),
+                     *const w = texel(taps.at.w);
+  const vec<F, 4>& weight = taps.weight;
+  const auto channel = [&](int c) TWINSHADE_LAMBDA {
+    return (F(x[c]) * weight.x + F(y[c]) * weight.y) + (F(z[c]) * weight.z + F(w[c]) * weight.w);
+  };
+  return {channel(0), channel(1), channel(2), channel(3)};
+}
+
+template <int W>
+TWINSHADE_FUNCTION vec<Simd<float, W>, 4> filtered(const float* texels, const Taps<W>& taps) {
+  if (taps.same_for_all_lanes()) return filtered_once(texels, taps, 0);
+  return filtered_texels<W>(texels, TapIndices<W>(taps), 0, taps.weight);
+}
+
+// f(0), f(1) ... f(n - 1), each a constant: compilers leave longer loops as they are, and compute addresses in them.
+template <int n, class F>
+TWINSHADE_FUNCTION void unrolled(F f) {
+  [&]<int... k>(std::integer_sequence<int, k...>) TWINSHADE_LAMBDA { (f(std::integral_constant<int, k>()), ...); }
+  (std::make_integer_sequence<int, n>());
+}
+
+template <class V, class Pick>
+TWINSHADE_FUNCTION V shuffle(const V& a, const V& b, Pick pick) {
+  return [&]<int... k>(std::integer_sequence<int, k...>) TWINSHADE_LAMBDA {
+    return __builtin_shufflevector(a, b, pick(k)...);
+  }
+  (std::make_integer_sequence<int, sizeof(V) / 4>());
+}
+// Blocks of 128 bits 0 and 2, or 1 and 3, of two registers of four.
+TWINSHADE_FUNCTION Float16 even_blocks(const Float16& a, const Float16& b) {
+  return shuffle(a, b, [](int k) TWINSHADE_LAMBDA { return k / 4 % 2 * 8 + k % 4 + (k >= 8 ? 16 : 0); });
+}
+TWINSHADE_FUNCTION Float16 odd_blocks(const Float16& a, const Float16& b) {
+  return shuffle(a, b, [](int k) TWINSHADE_LAMBDA { return 4 + k / 4 % 2 * 8 + k % 4 + (k >= 8 ? 16 : 0); });
+}
+
+// Block b of rows[i] becomes block i of rows[b], for the register's 1, 2 or 4 blocks of 128 bits; rows are those j,
+// j + 4 ... of W.
+template <class V, int W>
+TWINSHADE_FUNCTION void transpose_blocks(V (&rows)[W]) {
+  constexpr auto low = [](int k) TWINSHADE_LAMBDA { return k % (W / 2) + (k >= W / 2 ? W : 0); };
+  constexpr auto high = [](int k) TWINSHADE_LAMBDA { return W / 2 + k % (W / 2) + (k >= W / 2 ? W : 0); };
+  if constexpr (W == 8) {
+    unrolled<4>([&](auto j) TWINSHADE_LAMBDA {
+      const V a = rows[j], b = rows[j + 4];
+      rows[j] = shuffle(a, b, low);
+      rows[j + 4] = shuffle(a, b, high);
+    });
+  } else if constexpr (W == 16) {
+    unrolled<4>([&](auto j) TWINSHADE_LAMBDA {
+      const V ab01 = shuffle(rows[j], rows[j + 4], low), ab23 = shuffle(rows[j], rows[j + 4], high);
+      const V cd01 = shuffle(rows[j + 8], rows[j + 12], low), cd23 = shuffle(rows[j + 8], rows[j + 12], high);
+      rows[j] = even_blocks(ab01, cd01);
+      rows[j + 4] = odd_blocks(ab01, cd01);
+      rows[j + 8] = even_blocks(ab23, cd23);
+      rows[j + 12] = odd_blocks(ab23, cd23);
+    });
+  }
+}
+
+// --- several floats of a texel
+
+// What filters of several floats are given: the taps of one sum of four texels, or of the sum of two such sums, and
+// their weights, in memory.
+template <int W, int T>
+struct TapTable {
+  static_assert(T == 4 || T == 8);
+  alignas(64) std::uint32_t at[T][W];
+  alignas(64) float weight[T][W];
+
+  TWINSHADE_INLINE explicit TapTable(const Taps<W>& taps) requires(T == 4) { put(taps, 0); }
+  TWINSHADE_INLINE TapTable(const Taps<W>& low, const Taps<W>& high) requires(T == 8) {
+    put(low, 0);
+    put(high, 4);
+  }
+
+ private:
+  TWINSHADE_INLINE void put(const Taps<W>& taps, int first) {
+    store_in_twos(taps.at, at + first);
+    taps.weight.x.store(weight[first]);
+    taps.weight.y.store(weight[first + 1]);
+    taps.weight.z.store(weight[first + 2]);
+    taps.weight.w.store(weight[first + 3]);
+  }
+};
+
+template <int K, class V>
+TWINSHADE_FUNCTION Register<float, K> first_lanes(const V& lanes) {
+  return [&]<int... k>(std::integer_sequence<int, k...>) TWINSHADE_LAMBDA {
+    return __builtin_shufflevector(lanes, lanes, k...);
+  }
+  (std::make_integer_sequence<int, K>());
+}
+
+// Floats first .. first + K - 1 of a lane's texels, weighted and summed in the order of the GLSL.
+template <int K, int T, class Weight>
+TWINSHADE_FUNCTION Register<float, K> weighted_sum(const float* const (&texel)[T], const Weight (&weight)[T],
+                                                   int first) {
+  const auto product = [&](int tap) TWINSHADE_LAMBDA {
+    return registers::load<K>(texel[tap] + first) * first_lanes<K>(weight[tap]);
+  };
+  const auto four = [&](int tap) TWINSHADE_LAMBDA {
+    return (product(tap) + product(tap + 1)) + (product(tap + 2) + product(tap + 3));
+  };
+  if constexpr (T == 4)
+    return four(0);
+  else
+    return four(0) + four(4);
+}
+
+// The first `floats` floats, a multiple of 4, of each lane's texels: put(first lane, float's number as a constant,
+// register of lanes). A lane's pointers and weights are loaded once for all of them.
+template <int floats, int W, int T, int All, class Put>
+TWINSHADE_FUNCTION void filter_floats(const float* texels, const TapTable<All, T>& taps, int first_lane, Put put) {
+  if constexpr (!Simd<float, W>::whole) {
+    filter_floats<floats, W / 2>(texels, taps, first_lane, put);
+    filter_floats<floats, W / 2>(texels, taps, first_lane + W / 2, put);
+  } else {
+    // Whole registers, then what is left: half a register of 16, then four floats.
+    constexpr int kParts = floats / W, kRest = floats % W, kEight = kRest >= 8 ? 8 : 0, kFour = kRest % 8;
+    static_assert(kFour == 0 || kFour == 4);
+    // (One part too many, lest there be none.) In memory as numbers: compilers copy arrays of registers by halves,
+    // which wait for the stores of whole ones.
+    alignas(64) float parts[kParts + 1][W][W], eights[W][8], fours[W][4];
+    for (int lane = 0; lane < W; ++lane) {
+      const float* texel[T];
+      Register<float, W> weight[T];
+      for (int tap = 0; tap < T; ++tap) {
+        texel[tap] = texels + std::size_t{taps.at[tap][first_lane + lane]} * 2;
+        weight[tap] = registers::splat<float, W>(taps.weight[tap][first_lane + lane]);
+      }
+      unrolled<kParts>([&](auto part) TWINSHADE_LAMBDA {
+        registers::store(parts[part][lane], weighted_sum<W>(texel, weight, part * W));
+      });
+      if constexpr (kEight != 0) registers::store(eights[lane], weighted_sum<8>(texel, weight, kParts * W));
+      if constexpr (kFour != 0) registers::store(fours[lane], weighted_sum<4>(texel, weight, kParts * W + kEight));
+    }
+    // rows[j]: four floats of lanes j, j + 4 ...
+    const auto put_four = [&](auto first, const Register<float, W>* rows) TWINSHADE_LAMBDA {
+      Register<float, W> channels[4] = {rows[0], rows[1], rows[2], rows[3]};
+      registers::transpose_groups(channels);
+      unrolled<4>([&](auto c)
+                      TWINSHADE_LAMBDA { put(first_lane, std::integral_constant<int, first + c>(), channels[c]); });
+    };
+    unrolled<kParts>([&](auto part) TWINSHADE_LAMBDA {
+      Register<float, W> rows[W];
+      unrolled<W>([&](auto i) TWINSHADE_LAMBDA { rows[i] = registers::load<W>(parts[part][i]); });
+      transpose_blocks(rows);
+      unrolled<W / 4>(
+          [&](auto i) TWINSHADE_LAMBDA { put_four(std::integral_constant<int, part * W + 4 * i>(), rows + 4 * i); });
+    });
+    if constexpr (kEight != 0) {
+      Register<float, W> rows[8];
+      const auto eight = [&](int lane) TWINSHADE_LAMBDA { return registers::load<8>(eights[lane]); };
+      unrolled<4>([&](auto j) TWINSHADE_LAMBDA {
+        const auto a = registers::concatenate(eight(j), eight(j + 4));
+        const auto b = registers::concatenate(eight(j + 8), eight(j + 12));
+        rows[j] = even_blocks(a, b);
+        rows[4 + j] = odd_blocks(a, b);
+      });
+      put_four(std::integral_constant<int, kParts * W>(), rows);
+      put_four(std::integral_constant<int, kParts * W + 4>(), rows + 4);
+    }
+    if constexpr (kFour != 0) {
+      const auto four = [&](int lane) TWINSHADE_LAMBDA { return registers::load<4>(fours[lane]); };
+      const Register<float, W> rows[4] = {registers::texel_row<W>(four, 0), registers::texel_row<W>(four, 1),
+                                          registers::texel_row<W>(four, 2), registers::texel_row<W>(four, 3)};
+      put_four(std::integral_constant<int, kParts * W + kEight>(), rows);
+    }
+  }
+}
+
+// Lanes first_lane .. of the number-th of an aggregate's Simd<float, W>.
+template <int W, class Aggregate, class V>
+TWINSHADE_FUNCTION void store_lanes(Aggregate& aggregate, int number, int first_lane, const V& lanes) {
+  registers::store(reinterpret_cast<float*>(&aggregate) + number * W + first_lane, lanes);
+}
+
+// The four channels of each of `count` layers that lie side by side. A call: shaders fetch in many places, and this is
+// long.
+template <int count, int W, int T>
+__attribute__((noinline)) TWINSHADE_WHOLE void filter_layers(const float* texels, const TapTable<W, T>& taps,
+                                                             vec<Simd<float, W>, 4> (&layers)[count]) {
+  filter_floats<4 * count, W>(texels, taps, 0, [&](int first_lane, auto number, const auto& lanes) TWINSHADE_LAMBDA {
+    store_lanes<W>(layers, number, first_lane, lanes);
+  });
+}
+
+// The colours of three layers that lie side by side, four floats each.
+template <int W, int T>
+__attribute__((noinline)) TWINSHADE_WHOLE void filter_three_colors(const float* texels, const TapTable<W, T>& taps,
+                                                                   mat<Simd<float, W>, 3, 3>& layers) {
+  filter_floats<12, W>(texels, taps, 0, [&](int first_lane, auto number, const auto& lanes) TWINSHADE_LAMBDA {
+    if constexpr (number % 4 != 3) store_lanes<W>(layers, number / 4 * 3 + number % 4, first_lane, lanes);
+  });
+}
+
+// Floats of a texel with the colours of `count` layers, as LayerOrder::colors_together lays them.
+constexpr int color_floats(int count) { return count / 5 * 16 + (count % 5 == 0 ? 0 : count % 5 == 1 ? 4 : 16); }
+
+// The colours of `count` layers that lie side by side so.
+template <int count, int W, int T>
+__attribute__((noinline)) TWINSHADE_WHOLE void filter_colors(const float* texels, const TapTable<W, T>& taps,
+                                                             arr<vec<Simd<float, W>, 3>, count>& colors) {
+  filter_floats<color_floats(count), W>(texels, taps, 0,
+                                        [&](int first_lane, auto number, const auto& lanes) TWINSHADE_LAMBDA {
+                                          constexpr int channel = number / 16 * 15 + number % 16;
+                                          if constexpr (number % 16 != 15 && channel < 3 * count)
+                                            store_lanes<W>(colors, channel, first_lane, lanes);
+                                        });
+}
+
+}  // namespace detail
+}  // namespace served
+}  // namespace TWINSHADE_ISA_NAMESPACE
+}  // namespace twinshade

@@ -29,8 +29,7 @@ inline constexpr std::uint32_t kWindow = 16;
 // Edge values are cut off here: farther from 0 than any step within a window (15 * (|a| + |b|) < 2^29) can lead back.
 inline constexpr std::int64_t kEdgeLimit = std::int64_t{1} << 30;
 
-// Calls use(pixel index in the tile, x, y, inside) for each block of which some pixels are covered; x and y are its
-// lower left pixel in the frame.
+// Calls use(column, row, inside) for each block of the tile of which some pixels are covered.
 template <class Use>
 TWINSHADE_INLINE void for_each_covered_block(const RasterTriangle& t, const CoverTile& tile, Use use) {
   using I = BlockInts;
@@ -52,7 +51,6 @@ TWINSHADE_INLINE void for_each_covered_block(const RasterTriangle& t, const Cove
   const std::uint32_t tile_end_x = tile.x + tile.size - 1, tile_end_y = tile.y + tile.size - 1;
   const std::uint32_t x0 = t.min_x > tile.x ? t.min_x : tile.x, x1 = t.max_x < tile_end_x ? t.max_x : tile_end_x;
   const std::uint32_t y0 = t.min_y > tile.y ? t.min_y : tile.y, y1 = t.max_y < tile_end_y ? t.max_y : tile_end_y;
-  const std::uint32_t superblocks_a_row = tile.size / kSuperblock;
 
   for (std::uint32_t y = y0 & ~3u; y <= y1; y += kWindow)
     for (std::uint32_t x = x0 & ~3u; x <= x1; x += kWindow) {
@@ -87,17 +85,74 @@ TWINSHADE_INLINE void for_each_covered_block(const RasterTriangle& t, const Cove
           inside = inside & (I::load(kPixelX) < I(std::int32_t(tile.frame_width - frame_x))) &
                    (I::load(kPixelY) < I(std::int32_t(tile.frame_height - frame_y)));
         if (!any(inside)) continue;
-        const std::uint32_t column = (frame_x - tile.x) / 4, row = (frame_y - tile.y) / 4;
-        const std::uint32_t superblock = row / 4 * superblocks_a_row + column / 4;
-        use((superblock * 16 + row % 4 * 4 + column % 4) * 16, frame_x, frame_y, inside);
+        use((frame_x - tile.x) / 4, (frame_y - tile.y) / 4, inside);
       }
     }
 }
 
+// Places of a tile's blocks, by column and by row: of their pixels' centres, in NDC or in pixels, and in memory.
+template <bool ndc>
+struct ComputedPlaces {
+  using F = BlockFloats;
+  const CoverTile& tile;
+
+  TWINSHADE_INLINE F x(std::uint32_t column) const {
+    const F x = F(float(tile.x + 4 * column)) + (BlockInts::load(kPixelX).to<float>() + F(0.5f));
+    return ndc ? x * F(tile.vertices->ndc_scale_x) - F(1.0f) : x;
+  }
+  TWINSHADE_INLINE F y(std::uint32_t row) const {
+    const F y = F(float(tile.y + 4 * row)) + (BlockInts::load(kPixelY).to<float>() + F(0.5f));
+    return ndc ? y * F(tile.vertices->ndc_scale_y) - F(1.0f) : y;
+  }
+  TWINSHADE_INLINE std::uint32_t pixel(std::uint32_t column, std::uint32_t row) const {
+    return (row / 4 * (tile.size / kSuperblock) * 16 + row % 4 * 4 + column / 4 * 16 + column % 4) * kBlock;
+  }
+};
+
+// Numbers that are the same in both halves, as the columns of a block are: nothing is computed twice where registers
+// hold a half.
+template <class F>
+TWINSHADE_INLINE F load_alike(const float* from) {
+  F x;
+  if constexpr (F::whole)
+    x = F::load(from);
+  else
+    x.lo = x.hi = F::Half::load(from);
+  return x;
+}
+
+// The same, computed once for all triangles of a tile.
+template <bool ndc>
+class StoredPlaces {
+ public:
+  using F = BlockFloats;
+  explicit StoredPlaces(const CoverTile& tile) {
+    const ComputedPlaces<ndc> places{tile};
+    for (std::uint32_t k = 0; k < tile.size / 4; ++k) {
+      places.x(k).store(x_[k]);
+      places.y(k).store(y_[k]);
+      column_[k] = places.pixel(k, 0);
+      row_[k] = places.pixel(0, k);
+    }
+  }
+  TWINSHADE_INLINE F x(std::uint32_t column) const { return load_alike<F>(x_[column]); }
+  TWINSHADE_INLINE F y(std::uint32_t row) const { return F::load(y_[row]); }
+  TWINSHADE_INLINE std::uint32_t pixel(std::uint32_t column, std::uint32_t row) const {
+    return column_[column] + row_[row];
+  }
+
+ private:
+  static constexpr int kMost = 32;  // blocks across a tile of 128 pixels
+  alignas(64) float x_[kMost][kBlock];
+  alignas(64) float y_[kMost][kBlock];
+  std::uint32_t column_[kMost], row_[kMost];
+};
+
 // Depth of a native triangle: the plane through its window z, evaluated as Mesa does where it has no fused
-// multiply-add.
+// multiply-add. x, y: of pixels' centres.
 struct NativeDepth {
   using F = BlockFloats;
+  static constexpr bool kNdc = false;
   Plane<float> plane;
   TWINSHADE_INLINE NativeDepth(const CoverTile& tile, std::uint32_t which) {
     const NativeTriangle& native = *tile.primitives[tile.locals[which]].native;
@@ -110,29 +165,23 @@ struct NativeDepth {
   }
 };
 
+// x, y: NDC.
 struct ExactDepth {
   using F = BlockFloats;
+  static constexpr bool kNdc = true;
   ExactTriangle<F> triangle;
-  float scale_x, scale_y;
   TWINSHADE_INLINE ExactDepth(const CoverTile& tile, std::uint32_t which)
-      : triangle(*tile.vertices, tile.primitives[tile.locals[which]].primitive),
-        scale_x(tile.vertices->ndc_scale_x),
-        scale_y(tile.vertices->ndc_scale_y) {}
-  TWINSHADE_INLINE F operator()(F x, F y) const {
-    return triangle.at(x * F(scale_x) - F(1.0f), y * F(scale_y) - F(1.0f)).depth();
-  }
+      : triangle(*tile.vertices, tile.primitives[tile.locals[which]].primitive) {}
+  TWINSHADE_INLINE F operator()(F x, F y) const { return triangle.at(x, y).depth(); }
 };
 
 // use(first pixel, inside, depth) for the blocks of triangle `which`.
-template <class Depth, class Use>
-TWINSHADE_INLINE void cover_with_depth(const CoverTile& tile, std::uint32_t which, Use use) {
-  using F = BlockFloats;
+template <class Depth, class Places, class Use>
+TWINSHADE_INLINE void cover_with_depth(const CoverTile& tile, const Places& places, std::uint32_t which, Use use) {
   const Depth depth(tile, which);
-  const F offset_x = BlockInts::load(kPixelX).to<float>() + F(0.5f);
-  const F offset_y = BlockInts::load(kPixelY).to<float>() + F(0.5f);
   for_each_covered_block(*tile.triangles[which], tile,
-                         [&](std::uint32_t pixel, std::uint32_t x, std::uint32_t y, BlockMask inside) TWINSHADE_LAMBDA {
-                           use(pixel, inside, depth(F(float(x)) + offset_x, F(float(y)) + offset_y));
+                         [&](std::uint32_t column, std::uint32_t row, BlockMask inside) TWINSHADE_LAMBDA {
+                           use(places.pixel(column, row), inside, depth(places.x(column), places.y(row)));
                          });
 }
 
@@ -140,12 +189,13 @@ template <class Depth>
 void cover_all(const CoverTile& tile) {
   using F = BlockFloats;
   using U = Simd<std::uint32_t, kBlock>;
+  const StoredPlaces<Depth::kNdc> places(tile);
   for (std::uint32_t which = 0; which < tile.count; ++which) {
     const U local(tile.locals[which]);
-    cover_with_depth<Depth>(tile, which, [&](std::uint32_t pixel, BlockMask inside, F depth) TWINSHADE_LAMBDA {
+    // Stored without asking whether any pixel is nearer: the answer comes late, and four times in five it is yes.
+    cover_with_depth<Depth>(tile, places, which, [&](std::uint32_t pixel, BlockMask inside, F depth) TWINSHADE_LAMBDA {
       const F old = F::load(tile.depth + pixel);
       const BlockMask nearer = inside & (depth < old);
-      if (!any(nearer)) return;
       select(nearer, depth, old).store(tile.depth + pixel);
       select(nearer, local, U::load(tile.visible + pixel)).store(tile.visible + pixel);
     });
@@ -163,8 +213,9 @@ inline void cover(const CoverTile& tile) {
 template <class Depth>
 std::uint32_t cover_quads(const CoverTile& tile, std::uint32_t which, bool early_depth_test, CoveredQuad* out) {
   using F = BlockFloats;
+  const ComputedPlaces<Depth::kNdc> places{tile};
   std::uint32_t count = 0;
-  cover_with_depth<Depth>(tile, which, [&](std::uint32_t pixel, BlockMask inside, F depth) TWINSHADE_LAMBDA {
+  cover_with_depth<Depth>(tile, places, which, [&](std::uint32_t pixel, BlockMask inside, F depth) TWINSHADE_LAMBDA {
     if (early_depth_test) inside = inside & (depth < F::load(tile.depth + pixel));
     const std::uint32_t bits = inside.bits();
     float depths[kBlock];

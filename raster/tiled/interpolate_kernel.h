@@ -28,7 +28,7 @@ template <class F>
 class Interpolator {
   using R = typename F::element;
   using U = typename F::template with<std::uint32_t>;
-  static constexpr std::uint32_t kWidth = F::width;
+  static constexpr std::uint32_t kWidth = F::width, kPoints = 64;
 
  public:
   TWINSHADE_INLINE explicit Interpolator(const Interpolate& call)
@@ -73,29 +73,49 @@ class Interpolator {
     for (; i < call_.count + 16; ++i) center_x_[i] = center_y_[i] = R(0.5);
   }
 
+  // By few enough invocations for their weights to stay in the first cache: points first, then input by input, so that
+  // a vertex' value is broadcast once.
   TWINSHADE_INLINE void exact(const LocalPrimitive& primitive, std::uint32_t begin, std::uint32_t end) {
     const VertexData& vertices = *call_.vertices;
     const ExactTriangle<F> triangle(vertices, primitive.primitive);
     const std::uint32_t* index = vertices.indices + std::size_t(primitive.primitive) * 3;
     const float* row[3];
     for (int v = 0; v < 3; ++v) row[v] = vertices.inputs + std::size_t(index[v]) * vertices.input_components;
-    for (std::uint32_t i = begin; i < end; i += kWidth) {
-      const F x = F::load(center_x_ + i), y = F::load(center_y_ + i);
-      const ExactPoint<F> p =
-          triangle.at(x * F(R(vertices.ndc_scale_x)) - F(R(1)), y * F(R(vertices.ndc_scale_y)) - F(R(1)));
-      const F r = F(R(1)) / p.sum;
-      const F weight0 = p.e0 * r, weight1 = p.e1 * r, weight2 = p.e2 * r;
-      for (std::uint32_t c = 0; c < vertices.input_components; ++c) {
-        const F value = call_.interpolation[c] == kSmooth
-                            ? (F(R(row[0][c])) * weight0 + F(R(row[1][c])) * weight1) + F(R(row[2][c])) * weight2
-                            : F(flat_value<R>(row[2][c], call_.scalars[c]));
-        value.store(inputs_ + std::size_t(c) * call_.stride + i);
-      }
-      if (frag_coord_) {
-        p.depth().store(frag_coord_ + 2 * std::size_t(call_.stride) + i);
-        p.reciprocal_w().store(frag_coord_ + 3 * std::size_t(call_.stride) + i);
-      }
-      if (call_.front_facing) select(p.w > F(R(0)), U(~0u), U(0u)).store(call_.front_facing + i);
+    for (; begin < end; begin += kPoints) {
+      const std::uint32_t count = end - begin < kPoints ? end - begin : kPoints;
+      alignas(64) R weights[3][kPoints];
+      for (std::uint32_t k = 0; k < count; k += kWidth) exact_points(triangle, begin + k, weights, k);
+      for (std::uint32_t c = 0; c < vertices.input_components; ++c) exact_input(c, row, begin, count, weights);
+    }
+  }
+
+  TWINSHADE_INLINE void exact_points(const ExactTriangle<F>& triangle, std::uint32_t i, R (&weights)[3][kPoints],
+                                     std::uint32_t k) {
+    const VertexData& vertices = *call_.vertices;
+    const F x = F::load(center_x_ + i), y = F::load(center_y_ + i);
+    const ExactPoint<F> p =
+        triangle.at(x * F(R(vertices.ndc_scale_x)) - F(R(1)), y * F(R(vertices.ndc_scale_y)) - F(R(1)));
+    const F r = F(R(1)) / p.sum;
+    (p.e0 * r).store(weights[0] + k);
+    (p.e1 * r).store(weights[1] + k);
+    (p.e2 * r).store(weights[2] + k);
+    if (frag_coord_) {
+      p.depth().store(frag_coord_ + 2 * std::size_t(call_.stride) + i);
+      p.reciprocal_w().store(frag_coord_ + 3 * std::size_t(call_.stride) + i);
+    }
+    if (call_.front_facing) select(p.w > F(R(0)), U(~0u), U(0u)).store(call_.front_facing + i);
+  }
+
+  TWINSHADE_INLINE void exact_input(std::uint32_t component, const float* const (&row)[3], std::uint32_t begin,
+                                    std::uint32_t count, const R (&weights)[3][kPoints]) {
+    R* const to = inputs_ + std::size_t(component) * call_.stride + begin;
+    if (call_.interpolation[component] == kSmooth) {
+      const F a0 = F(R(row[0][component])), a1 = F(R(row[1][component])), a2 = F(R(row[2][component]));
+      for (std::uint32_t k = 0; k < count; k += kWidth)
+        ((a0 * F::load(weights[0] + k) + a1 * F::load(weights[1] + k)) + a2 * F::load(weights[2] + k)).store(to + k);
+    } else {
+      const F value(flat_value<R>(row[2][component], call_.scalars[component]));
+      for (std::uint32_t k = 0; k < count; k += kWidth) value.store(to + k);
     }
   }
 

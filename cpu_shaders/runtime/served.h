@@ -3,8 +3,8 @@
 // Scalar64: the transcendentals, in double. Their GLSL bodies are float polynomials over bit casts: in double they
 // would measure the polynomial's error instead of the rounding's.
 //
-// Lanes: the written-out bilinear filters, in served_fetch.h; those of five layers' colours, in
-// served_fetch_colors.h, for every policy.
+// Lanes: the written-out bilinear filters, in served_fetch.h; those of all layers' colours, in served_fetch_colors.h,
+// for every policy.
 #pragma once
 
 #include "base/portable_math.h"

@@ -129,7 +129,12 @@ Unresolved technique_text(const TechniqueInfo& technique, CoefficientStorage sto
     text += "#define COEFFICIENTS " + std::string(volume ? "volume_" : "coefficients_") + name + "\n";
     text += "#define COEFFICIENT_COUNT " + std::to_string(technique.count) + "\n";
     if (volume) text += "#define COEFFICIENTS_PICKED " + std::to_string(int(technique.reads == Reads::some)) + "\n";
-    text += "#include \"technique/" + std::string(volume ? "surface_world" : "surface") + ".glsl\"\n";
+    const bool flat = technique.projection == Projection::value_at_normal;  // whatever the mapped normal is
+    text += "#include \"technique/" +
+            std::string(volume ? "surface_world"
+                        : flat ? "surface_flat"
+                               : "surface") +
+            ".glsl\"\n";
     text += "#include \"technique/coefficients_" +
             std::string(volume   ? "volume"
                         : vertex ? "vertex"

@@ -50,6 +50,7 @@ struct DrawOptions {
   int repeat = 1;              // draw this many times (benchmark); milliseconds then holds the median of each stage
   int warmup = 0;
   // cpu only
+  bool visibility = true;      // Frame::primitive_id and coverage; else they stay empty
   int tile_size = 0;           // 16, 32, 64 or 128; 0: the renderer chooses
   Number number = Number::lanes16;
   std::optional<Isa> isa;      // unset: the best that the machine and the module have

@@ -25,6 +25,7 @@ void draw(Timing& timing, const Bundle& bundle, const ShaderSource& source, cons
   options.warmup = 1;
   options.time_limit_seconds = 600;
   options.repeat = rounds.repeat;
+  options.visibility = false;  // OpenGL's frame has no such thing while it is timed
   try {
     restart_peak_memory();
     const Frame frame = way.machines->draw(way.renderer, bundle, source, options);
@@ -34,7 +35,8 @@ void draw(Timing& timing, const Bundle& bundle, const ShaderSource& source, cons
     timing.milliseconds.push_back(whole);
     for (std::size_t s = 0; s < kStageCount; ++s)
       if (const double ms = milliseconds_of(frame, kStages[s]); ms >= 0) timing.stages[s].push_back(ms);
-    timing.shaded_pixels = std::uint64_t(std::count(frame.coverage.begin(), frame.coverage.end(), 1));
+    timing.shaded_pixels =
+        std::uint64_t(std::count_if(frame.depth.begin(), frame.depth.end(), [](float depth) { return depth < 1; }));
     rounds.drawn(way, frame);
   } catch (const BackendError& error) {
     timing.failure = error.what();

@@ -31,21 +31,21 @@ TWINSHADE_APART void ask_for_texels(const ShaderData& data, const ShadeCall& cal
       slice =
           detail::clamp_to_size(layer, view.layers).template to<std::uint32_t>() * detail::pitch<U>(view.layer_pitch);
     }
-    alignas(64) std::uint32_t at[2][N::width];
-    (slice + detail::texel_index(view, x.first, y.first)).store(at[0]);
-    (slice + detail::texel_index(view, x.first, y.second)).store(at[1]);
+    // In twos of floats, the largest scale of an x86 address.
+    const U texel = slice + detail::texel_index(view, x.first, y.first);
+    alignas(64) std::uint32_t at[N::width];
+    (texel + texel).store(at);
     // Really through memory: compilers would take registers apart lane by lane. Volatile: g++ sees no effect in
     // prefetches and leaves out calls of functions that have nothing else.
     __asm__ volatile("" : "+m"(at));
-    // The two texels of a row, which lie in one cache line or two.
-    const std::uintptr_t texels = reinterpret_cast<std::uintptr_t>(view.texels);
-    const std::uintptr_t last = 2 * static_cast<std::uintptr_t>(view.texel_pitch) * sizeof(float) - 1;
+    // The two texels of a row, which lie in one cache line or two, and those of the row above; where that is the
+    // texture's first row again, or the texel to the right is its row's first, others are asked for.
+    const auto texels = reinterpret_cast<std::uintptr_t>(view.texels);
+    const std::uintptr_t right = texels + 2 * static_cast<std::uintptr_t>(view.texel_pitch) * sizeof(float) - 1;
+    const std::uintptr_t above = static_cast<std::uintptr_t>(view.row_pitch) * sizeof(float);
     for (int lane = 0; lane < N::width; ++lane)
-      for (const auto& row : at) {
-        const std::uintptr_t texel = texels + std::uintptr_t{row[lane]} * 16;
-        __builtin_prefetch(reinterpret_cast<const void*>(texel));
-        __builtin_prefetch(reinterpret_cast<const void*>(texel + last));
-      }
+      for (const std::uintptr_t from : {texels, right, texels + above, right + above})
+        __builtin_prefetch(reinterpret_cast<const void*>(from + std::uintptr_t{at[lane]} * 8));
   }
 }
 

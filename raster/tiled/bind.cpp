@@ -45,6 +45,15 @@ std::string attribute_name(const ShaderVariable& input, std::uint32_t element, s
   return name;
 }
 
+// Floats from row to row of a texture that is laid out anew, for rows of `floats`. Texels above each other are read
+// together, and rows a power of two apart share the sets of a cache: they evict each other from one that is nearly
+// empty. Such rows are made 9 lines more than a multiple of 16; short ones are left, their texture is small.
+std::size_t row_pitch(std::size_t floats) {
+  constexpr std::size_t kLine = 16;
+  if (floats % (8 * kLine) != 0 || floats < 16 * kLine) return floats;
+  return (floats / kLine + 6) / 16 * 16 * kLine + 9 * kLine;
+}
+
 // More than the nearest caches hold beside what else a shader reads.
 constexpr std::size_t kLargeTexture = std::size_t{1} << 19;  // bytes
 
@@ -161,6 +170,7 @@ class Binder {
     for (std::uint32_t i = 0; i < module_.resource_count; ++i)
       if (module_.resources[i].beside >= 0)
         put_beside(draw_.textures[module_.resources[i].slot], draw_.textures[std::size_t(module_.resources[i].beside)]);
+    for (TextureView& view : draw_.textures) move_rows_apart(view);
   }
 
   void bind_buffer(const ShaderResource& wanted, bool storage) {
@@ -199,45 +209,58 @@ class Binder {
     if (wanted.layer_order == LayerOrder::colors_together) interleave_colors(view);
   }
 
+  // Rows that no other layout has moved, where row_pitch says so.
+  void move_rows_apart(TextureView& view) {
+    const std::size_t row = std::size_t(view.width) * 4, pitch = row_pitch(row);
+    if (view.texel_pitch != 4 || std::size_t(view.row_pitch) == pitch) return;
+    const std::size_t rows = std::size_t(view.height) * std::size_t(view.layers);
+    AlignedArray<float>& to = draw_.laid_out.emplace_back(rows * pitch);
+    parallel_for(rows, [&](std::size_t y, int) { std::copy_n(view.texels + y * row, row, &to[y * pitch]); });
+    view.texels = to.data();
+    view.row_pitch = std::ptrdiff_t(pitch);
+    view.layer_pitch = view.row_pitch * view.height;
+  }
+
   // Layers side by side at each texel, in whole cache lines of four; the last one repeated at the end.
   void interleave(TextureView& view) {
     const auto layers = std::size_t(view.layers), padded = (layers + 3) / 4 * 4;
     const std::size_t width = std::size_t(view.width), height = std::size_t(view.height);
-    AlignedArray<float>& to = draw_.interleaved.emplace_back(width * height * padded * 4);
+    const std::size_t pitch = row_pitch(width * padded * 4);
+    AlignedArray<float>& to = draw_.laid_out.emplace_back(height * pitch);
     parallel_for(height, [&](std::size_t y, int) {
       for (std::size_t layer = 0; layer < padded; ++layer) {
         const float* from = view.texels + std::ptrdiff_t(std::min(layer, layers - 1)) * view.layer_pitch +
                             std::ptrdiff_t(y) * view.row_pitch;
-        for (std::size_t x = 0; x < width; ++x)
-          std::copy_n(from + x * 4, 4, &to[((y * width + x) * padded + layer) * 4]);
+        for (std::size_t x = 0; x < width; ++x) std::copy_n(from + x * 4, 4, &to[y * pitch + (x * padded + layer) * 4]);
       }
     });
     view.texels = to.data();
     view.texel_pitch = std::ptrdiff_t(padded * 4);
-    view.row_pitch = view.texel_pitch * std::ptrdiff_t(width);
+    view.row_pitch = std::ptrdiff_t(pitch);
     view.layer_pitch = 4;
   }
 
   // RGB of layers side by side at each texel, five to a cache line, as LayerOrder::colors_together says; the last one
-  // repeated in a last five of more than one. One that is left takes 32 bytes: no register of eight floats of the others
-  // crosses a cache line then.
+  // repeated in a last five of more than one. One that is left takes 32 bytes: no register of eight floats of the
+  // others crosses a cache line then.
   void interleave_colors(TextureView& view) {
     const auto layers = std::size_t(view.layers);
     const std::size_t filled = layers % 5 == 1 ? layers : (layers + 4) / 5 * 5;
-    const std::size_t pitch = filled / 5 * 16 + filled % 5 * 8;
+    const std::size_t texel = filled / 5 * 16 + filled % 5 * 8;
     const std::size_t width = std::size_t(view.width), height = std::size_t(view.height);
-    AlignedArray<float>& to = draw_.interleaved.emplace_back(width * height * pitch);
+    const std::size_t pitch = row_pitch(width * texel);
+    AlignedArray<float>& to = draw_.laid_out.emplace_back(height * pitch);
     parallel_for(height, [&](std::size_t y, int) {
       for (std::size_t layer = 0; layer < filled; ++layer) {
         const float* from = view.texels + std::ptrdiff_t(std::min(layer, layers - 1)) * view.layer_pitch +
                             std::ptrdiff_t(y) * view.row_pitch;
         for (std::size_t x = 0; x < width; ++x)
-          std::copy_n(from + x * 4, 3, &to[(y * width + x) * pitch + layer / 5 * 16 + layer % 5 * 3]);
+          std::copy_n(from + x * 4, 3, &to[y * pitch + x * texel + layer / 5 * 16 + layer % 5 * 3]);
       }
     });
     view.texels = to.data();
-    view.texel_pitch = std::ptrdiff_t(pitch);
-    view.row_pitch = view.texel_pitch * std::ptrdiff_t(width);
+    view.texel_pitch = std::ptrdiff_t(texel);
+    view.row_pitch = std::ptrdiff_t(pitch);
     view.layer_pitch = 3;
   }
 
@@ -246,19 +269,20 @@ class Binder {
     if (a.width != b.width || a.height != b.height || a.layers != b.layers) return;
     if (a.texel_pitch != 4 || b.texel_pitch != 4) return;
     const std::size_t row = std::size_t(a.width), rows = std::size_t(a.height) * std::size_t(a.layers);
-    AlignedArray<float>& to = draw_.interleaved.emplace_back(rows * row * 8);
+    const std::size_t pitch = row_pitch(row * 8);
+    AlignedArray<float>& to = draw_.laid_out.emplace_back(rows * pitch);
     parallel_for(rows, [&](std::size_t y, int) {
-      for (std::size_t x = y * row; x < (y + 1) * row; ++x) {
-        std::copy_n(a.texels + x * 4, 4, &to[x * 8]);
-        std::copy_n(b.texels + x * 4, 4, &to[x * 8 + 4]);
+      for (std::size_t x = 0; x < row; ++x) {
+        std::copy_n(a.texels + (y * row + x) * 4, 4, &to[y * pitch + x * 8]);
+        std::copy_n(b.texels + (y * row + x) * 4, 4, &to[y * pitch + x * 8 + 4]);
       }
     });
     a.texels = to.data();
     b.texels = to.data() + 4;
     for (TextureView* view : {&a, &b}) {
       view->texel_pitch = 8;
-      view->row_pitch *= 2;
-      view->layer_pitch *= 2;
+      view->row_pitch = std::ptrdiff_t(pitch);
+      view->layer_pitch = view->row_pitch * view->height;
     }
   }
 

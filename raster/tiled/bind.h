@@ -21,8 +21,8 @@ struct BoundDraw {
   std::vector<std::string> component_names;  // "v_uv.x" ...
 
   std::vector<std::byte> uniforms;
-  std::vector<TextureView> textures;  // their texels are the bundle's or, with layers side by side, interleaved
-  std::vector<AlignedArray<float>> interleaved;
+  std::vector<TextureView> textures;  // their texels are the bundle's or laid out anew
+  std::vector<AlignedArray<float>> laid_out;
   std::vector<TexelsAhead> ahead;
   std::vector<std::vector<std::byte>> buffer_bytes;  // copies: what a shader writes is gone after the draw
   std::vector<std::string> buffer_names;

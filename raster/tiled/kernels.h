@@ -65,8 +65,8 @@ struct CollectVisible {
   const CoverTile* tile;
   VisibleBlock* found;          // out: block by block; room for one a pixel
   std::uint32_t* counts;        // [local + 1] grows by the number of blocks found for it
-  std::uint32_t* primitive_id;  // out: of each pixel
-  std::uint32_t no_primitive;   // what it is where nothing is visible
+  std::uint32_t* primitive_id;  // out: of each pixel; or null
+  std::uint32_t no_primitive;   // its value where nothing is visible
   float* color;                 // of the tile; zeros in blocks that are not filled
 };
 

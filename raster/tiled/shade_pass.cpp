@@ -11,8 +11,9 @@ namespace twinshade::tiled {
 void TileWorker::collect_visible() {
   place_of_local_.assign(primitives_.size() + 1, 0);
   found_.resize(std::size_t(tile_.size) * tile_.size);
-  const std::uint32_t count = draw_.kernels.collect_visible(
-      {&tile_, found_.data(), place_of_local_.data(), primitive_id_.data(), kNoPrimitive, color_.data()});
+  const std::uint32_t count = draw_.kernels.collect_visible({&tile_, found_.data(), place_of_local_.data(),
+                                                             draw_.options.visibility ? primitive_id_.data() : nullptr,
+                                                             kNoPrimitive, color_.data()});
   for (std::size_t i = 1; i < place_of_local_.size(); ++i) place_of_local_[i] += place_of_local_[i - 1];
   sorted_.resize(count);
   for (std::uint32_t i = 0; i < count; ++i) sorted_[place_of_local_[found_[i].local]++] = found_[i];

@@ -11,7 +11,7 @@ inline namespace TWINSHADE_ISA_NAMESPACE {
 template <bool all>
 TWINSHADE_INLINE void store_colors_if(const StoreColors& call) {
   using U4 = Register<std::uint32_t, 4>;
-  static constexpr float kZeros[4] = {};
+  static constexpr float kZeros[8] = {};
   const float* channels[4];
   std::uint32_t step[4];
   for (int c = 0; c < 4; ++c) {
@@ -34,9 +34,19 @@ TWINSHADE_INLINE void store_colors_if(const StoreColors& call) {
       std::memcpy(to, &after, sizeof after);
     }
   };
-  for (std::uint32_t begin = 0, count = call.count; begin < count; begin += 4) {
+  const std::uint32_t count = call.count;
+  std::uint32_t begin = 0;
+  if constexpr (Simd<float, 8>::whole)
+    for (; begin + 8 <= count; begin += 8) {
+      Float8 rgba[4];  // [j]: of invocations j and 4 + j
+      for (int c = 0; c < 4; ++c) rgba[c] = registers::load<8>(channels[c] + begin * step[c]);
+      registers::transpose_groups(rgba);
+      for (std::uint32_t j = 0; j < 4; ++j) store(begin + j, __builtin_shufflevector(rgba[j], rgba[j], 0, 1, 2, 3));
+      for (std::uint32_t j = 0; j < 4; ++j) store(begin + 4 + j, __builtin_shufflevector(rgba[j], rgba[j], 4, 5, 6, 7));
+    }
+  for (; begin < count; begin += 4) {
     Float4 rgba[4];
-    for (int c = 0; c < 4; ++c) rgba[c] = registers::load_texel(channels[c], begin / 4 * step[c]);
+    for (int c = 0; c < 4; ++c) rgba[c] = registers::load<4>(channels[c] + begin * step[c]);
     registers::transpose_groups(rgba);
     if (begin + 4 <= count)
       for (std::uint32_t i = 0; i < 4; ++i) store(begin + i, rgba[i]);

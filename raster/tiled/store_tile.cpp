@@ -88,6 +88,7 @@ void TileWorker::store_superblock(std::uint32_t first, std::uint32_t x, std::uin
       }
     const Rows<F4> depth(&tile_.depth[from]);
     depth.stream_to(&frame.depth[pixel], width);
+    if (!draw_.options.visibility) continue;
     const Rows<U4> id(&primitive_id_[from]);
     id.stream_to(&frame.primitive_id[pixel], width);
     for (std::size_t block = 0; block < 4; ++block) {
@@ -105,12 +106,13 @@ void TileWorker::store_superblock_by_pixels(std::uint32_t first, std::uint32_t x
   for (std::uint32_t y = y0; y < std::min(y0 + kSuperblock, frame.height); ++y)
     for (std::uint32_t x = x0; x < std::min(x0 + kSuperblock, frame.width); ++x) {
       const std::size_t from = first + in_superblock(x - x0, y - y0), pixel = std::size_t(y) * frame.width + x;
-      const bool drawn = primitive_id_[from] != kNoPrimitive;
       frame.depth[pixel] = tile_.depth[from];
-      frame.coverage[pixel] = drawn;
-      frame.primitive_id[pixel] = primitive_id_[from];
       F4::load(&color_[4 * from]).store(&frame.color[4 * pixel]);
-      if (!drawn && draw_.float64()) std::fill_n(&frame.color64[4 * pixel], 4, 0.0);
+      if (draw_.options.visibility) {
+        frame.coverage[pixel] = primitive_id_[from] != kNoPrimitive;
+        frame.primitive_id[pixel] = primitive_id_[from];
+      }
+      if (draw_.float64() && tile_.visible[from] == kNotVisible) std::fill_n(&frame.color64[4 * pixel], 4, 0.0);
     }
 }
 

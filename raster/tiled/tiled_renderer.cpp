@@ -19,8 +19,8 @@ void allocate(Frame& frame, const Bundle& bundle, const BoundDraw& bound, const 
   frame.height = bundle.height;
   frame.color.resize(pixels * 4);
   frame.depth.resize(pixels);
-  frame.primitive_id.resize(pixels);
-  frame.coverage.resize(pixels);
+  frame.primitive_id.resize(options.visibility ? pixels : 0);
+  frame.coverage.resize(options.visibility ? pixels : 0);
   if (float64) frame.color64.resize(pixels * 4);
   if (options.capture_attributes) {
     frame.attributes.resize(pixels * bound.input_components);

@@ -11,7 +11,8 @@
 namespace twinshade::tiled {
 inline namespace TWINSHADE_ISA_NAMESPACE {
 
-inline std::uint32_t collect_visible(const CollectVisible& call) {
+template <bool ids>
+TWINSHADE_INLINE std::uint32_t collect_visible_if(const CollectVisible& call) {
   using U = Simd<std::uint32_t, 16>;
   const CoverTile& tile = *call.tile;
   VisibleBlock* found = call.found;
@@ -29,13 +30,17 @@ inline std::uint32_t collect_visible(const CollectVisible& call) {
       const auto here = visible == U(local);
       const std::uint32_t coverage = here.bits();
       left &= ~coverage;
-      id = select(here, U(tile.primitives[local].primitive), id);
+      if constexpr (ids) id = select(here, U(tile.primitives[local].primitive), id);
       *found++ = {local, std::uint16_t(block), std::uint16_t(coverage)};
       ++call.counts[local + 1];
     }
-    id.store(call.primitive_id + 16 * block);
+    if constexpr (ids) id.store(call.primitive_id + 16 * block);
   }
   return std::uint32_t(found - call.found);
+}
+
+inline std::uint32_t collect_visible(const CollectVisible& call) {
+  return call.primitive_id ? collect_visible_if<true>(call) : collect_visible_if<false>(call);
 }
 
 // [m]: the bits that are set in m, the lowest first, and how many.

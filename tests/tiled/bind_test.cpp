@@ -257,3 +257,45 @@ TEST_CASE("textures that are read together lie side by side, every texel where t
   const tiled::BoundDraw apart = tiled::bind(bundle, wishes.module(), AttributeMode::exact);
   CHECK(apart.textures[1].texels == bundle.textures[1].texels.data());
 }
+
+TEST_CASE("rows of textures are not a power of two apart, every texel where the views say") {
+  Bundle bundle = test::inside_bundle(8, 8, 1, 1);
+  const auto add = [&](const char* name, std::uint32_t width, std::uint32_t layers) {
+    Texture texture{};
+    texture.name = name;
+    texture.kind = TextureKind::two_d_array;
+    texture.width = width;
+    texture.height = 3;
+    texture.layers = layers;
+    for (std::uint32_t i = 0; i < width * 3 * layers * 4; ++i) texture.texels.push_back(float(i));
+    bundle.textures.push_back(texture);
+  };
+  add("alone", 128, 2);
+  add("small", 32, 2);
+  add("odd", 140, 2);
+  add("albedo", 64, 2);
+  add("normals", 64, 2);
+  add("layers", 64, 3);
+  add("colors", 64, 5);
+  Wishes wishes;
+  wishes.textures = 7;
+  for (std::uint32_t i = 0; i < 7; ++i)
+    wishes.resources.push_back({bundle.textures[i].name.c_str(), ResourceKind::sampler_2d_array, i, 0, false,
+                                i == 5   ? LayerOrder::together
+                                : i == 6 ? LayerOrder::colors_together
+                                         : LayerOrder::apart,
+                                i == 3 ? 4 : -1});
+  const tiled::BoundDraw bound = tiled::bind(bundle, wishes.module(), AttributeMode::exact);
+  const std::ptrdiff_t lines[7] = {41, 8, 35, 41, 41, 73, 73};  // of 16 floats, from row to row
+  for (std::size_t i = 0; i < 7; ++i) {
+    CAPTURE(i);
+    const TextureView& view = bound.textures[i];
+    CHECK(view.row_pitch == 16 * lines[i]);
+    CHECK((view.texels == bundle.textures[i].texels.data()) == (i == 1 || i == 2));  // left as they are
+    for (std::ptrdiff_t layer = 0; layer < view.layers; ++layer)
+      for (std::ptrdiff_t y = 0; y < view.height; ++y)
+        for (std::ptrdiff_t x = 0; x < view.width; ++x)
+          REQUIRE(view.texels[layer * view.layer_pitch + y * view.row_pitch + x * view.texel_pitch] ==
+                  bundle.textures[i].texels[std::size_t(((layer * view.height + y) * view.width + x) * 4)]);
+  }
+}

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "base/parallel.h"
 #include "cpu_shaders/machine.h"
@@ -160,6 +161,28 @@ TEST_CASE("float64 draws the same visibility") {
     CHECK(b.color64[4 * p] == double(a.primitive_id[p]));
   }
   CHECK(different == 0);
+}
+
+TEST_CASE("frames without ids and coverage have the same colours and depth") {
+  for (const std::uint32_t width : {192u, 173u}) {  // whole superblocks, and pixels one by one
+    const Bundle bundle = test::torture_bundle(width, 96, 300, 5);
+    for (const ShaderModule* module : {&test::echo_module(), &test::helpers_module(), &test::discard_module()})
+      for (const Number number : {Number::lanes8, Number::float64}) {
+        CAPTURE(module->name);
+        CAPTURE(int(number));
+        DrawOptions options;
+        options.number = number;
+        const Frame whole = draw_tiled(bundle, *module, options);
+        options.visibility = false;
+        const Frame frame = draw_tiled(bundle, *module, options);
+        CHECK(frame.primitive_id.empty());
+        CHECK(frame.coverage.empty());
+        CHECK(std::memcmp(frame.color.data(), whole.color.data(), whole.color.size() * sizeof(float)) == 0);
+        CHECK(frame.depth == whole.depth);
+        REQUIRE(frame.color64.size() == whole.color64.size());
+        CHECK(std::memcmp(frame.color64.data(), whole.color64.data(), whole.color64.size() * sizeof(double)) == 0);
+      }
+  }
 }
 
 TEST_CASE("an unknown tile size is the user's mistake") {

@@ -25,6 +25,7 @@ struct Frame {
   std::uint32_t width = 0, height = 0;
   LineVector<float> color;                 // RGBA32F of the first output; 0 where nothing was drawn
   LineVector<float> depth;                 // [0, 1]; 1 where nothing was drawn
+  // Empty without DrawOptions::visibility.
   LineVector<std::uint32_t> primitive_id;  // kNoPrimitive where nothing was drawn
   LineVector<std::uint8_t> coverage;       // 1 where a primitive was drawn (after discard), else 0
 

@@ -67,7 +67,7 @@ TWINSHADE_FUNCTION vec<F, 3> rgb(const vec<F, 4>& texel) {
 template <class N>
 inline constexpr bool has_exact_fetch = is_simd<N>;
 template <class N>
-inline constexpr bool has_exact_fetch_3 = is_simd<N>;
+inline constexpr bool has_exact_fetch_threes = is_simd<N>;
 template <class N>
 inline constexpr bool has_exact_fetch_layers = is_simd<N>;
 template <class N>
@@ -106,7 +106,8 @@ TWINSHADE_FUNCTION vec<typename N::F, 4> exact_fetch(Sampler2DArray<Real> maps, 
   }
 }
 
-// Of layers that lie apart or are not all there: kept out of the shader's code, which reads what is there.
+// Of layers that lie apart or are not all there: kept out of the shader's code, which reads what is there. Such
+// functions are given copies: what they saw themselves would have to be in memory in the shader's code, too.
 template <class N, class Real, class ExactTaps, int count>
 TWINSHADE_APART void exact_fetch_layers_apart(Sampler2DArray<Real> maps, const ExactTaps& taps,
                                               arr<vec<typename N::F, 4>, count>& layers) {
@@ -118,33 +119,44 @@ template <class N, class Real, class ExactTaps, int count>
 TWINSHADE_FUNCTION void exact_fetch_layers(Sampler2DArray<Real> maps, const ExactTaps& taps,
                                            arr<vec<typename N::F, 4>, count>& layers) {
   const TextureView& view = *maps.view;
-  if (view.layer_pitch != 4 || view.layers < count) return exact_fetch_layers_apart<N>(maps, taps, layers);
+  if (view.layer_pitch != 4 || view.layers < count) return exact_fetch_layers_apart<N>(maps, ExactTaps(taps), layers);
   detail::filter_layers<count>(view.texels, detail::TapTable<N::width, 4>(detail::locate<N>(view, taps)), layers.e);
 }
 
-template <class N, class Real, class Low, class High, Lane I>
-TWINSHADE_APART mat<typename N::F, 3, 3> exact_fetch_3_apart(Sampler2DArray<Real> maps, const Low& low,
-                                                             const High& high, const I& first) {
+template <class N>
+using Threes = arr<mat<typename N::F, 3, 3>, 3>;
+
+template <class N, class Real, class Low, class High>
+TWINSHADE_APART void exact_fetch_threes_apart(Sampler2DArray<Real> maps, const Low& low, const High& high,
+                                              const vec<typename N::I, 3>& first, Threes<N>& threes) {
+  using I = typename N::I;
   const I last(maps.view->layers - 1);
-  const auto layer = [&](int k) TWINSHADE_LAMBDA {
-    const I at = lanes_min(first + I(k), last);
-    return detail::rgb(exact_fetch<N>(maps, low, at)) + detail::rgb(exact_fetch<N>(maps, high, at));
+  const auto three = [&](const I& from) TWINSHADE_LAMBDA {
+    const auto layer = [&](int k) TWINSHADE_LAMBDA {
+      const I at = lanes_min(from + I(k), last);
+      return detail::rgb(exact_fetch<N>(maps, low, at)) + detail::rgb(exact_fetch<N>(maps, high, at));
+    };
+    return mat<typename N::F, 3, 3>(layer(0), layer(1), layer(2));
   };
-  return {layer(0), layer(1), layer(2)};
+  threes.e[0] = three(first.x);
+  threes.e[1] = three(first.y);
+  threes.e[2] = three(first.z);
 }
 
-template <class N, class Real, class Low, class High, Lane I>
-TWINSHADE_FUNCTION mat<typename N::F, 3, 3> exact_fetch_3(Sampler2DArray<Real> maps, const Low& low, const High& high,
-                                                          const I& first) {
+template <class N, class Real, class Low, class High, Vec First>
+TWINSHADE_FUNCTION void exact_fetch_threes(Sampler2DArray<Real> maps, const Low& low, const High& high,
+                                           const First& first, Threes<N>& threes) {
+  using I = typename N::I;
   const TextureView& view = *maps.view;
+  const vec<I, 3> from(first);
   const I most(view.layers - 3);
-  if (view.layer_pitch != 4 || !all((first >= I(0)) & (first <= most)))
-    return exact_fetch_3_apart<N>(maps, low, high, first);
-  auto low_taps = detail::locate<N>(view, low), high_taps = detail::locate<N>(view, high);
-  for (auto* taps : {&low_taps, &high_taps}) taps->move_by(typename N::U(first.template to<std::uint32_t>()));
-  mat<typename N::F, 3, 3> layers;
-  detail::filter_three_colors(view.texels, detail::TapTable<N::width, 8>(low_taps, high_taps), layers);
-  return layers;
+  const auto inside = [&](const I& layer) TWINSHADE_LAMBDA { return (layer >= I(0)) & (layer <= most); };
+  if (view.layer_pitch != 4 || !all(inside(from.x) & inside(from.y) & inside(from.z)))
+    return exact_fetch_threes_apart<N>(maps, Low(low), High(high), vec<I, 3>(first), threes);
+  const auto layer = [](const I& i) TWINSHADE_LAMBDA { return typename N::U(i.template to<std::uint32_t>()); };
+  detail::filter_threes(view.texels,
+                        detail::TapTable<N::width, 8>(detail::locate<N>(view, low), detail::locate<N>(view, high)),
+                        detail::Starts<N::width, 3>(layer(from.x), layer(from.y), layer(from.z)), threes);
 }
 
 template <class N, class Real, class ExactTaps, Lane I>
@@ -159,9 +171,9 @@ TWINSHADE_FUNCTION mat<typename N::F, 2, 4> exact_fetch_pair(Sampler2DArray<Real
     where.move_by(U(slice.template to<std::uint32_t>()) * twinshade::detail::pitch<U>(view.layer_pitch));
     if (where.same_for_all_lanes())
       return {detail::filtered_once(view.texels, where, 0), detail::filtered_once(view.texels, where, 4)};
-    mat<typename N::F, 2, 4> both;
-    detail::filter_layers<2>(view.texels, detail::TapTable<N::width, 4>(where), both.c);
-    return both;
+    detail::Unset<mat<typename N::F, 2, 4>> both;
+    detail::filter_layers<2>(view.texels, detail::TapTable<N::width, 4>(where), both.value.c);
+    return both.value;
   }
   return {exact_fetch<N>(first, taps, layer), exact_fetch<N>(second, taps, layer)};
 }

@@ -129,8 +129,8 @@ TWINSHADE_FUNCTION void exact_fetch_colors(Sampler2DArray<Real> maps, const Exac
   using I = Plain<std::int32_t, 1>;
   const TextureView& view = *maps.view;
   if (!detail::has_colors_together(view))
-    return detail::colors_by_layer<N, count>(colors, [&](int k) TWINSHADE_LAMBDA {
-      return detail::rgb(exact_fetch<N>(maps, taps, I(std::min(k, view.layers - 1))));
+    return detail::colors_by_layer<N, count>(colors, [maps, taps](int k) TWINSHADE_LAMBDA {
+      return detail::rgb(exact_fetch<N>(maps, taps, I(std::min(k, maps.view->layers - 1))));
     });
   if constexpr (is_simd<N>)
     if (view.layers >= count)
@@ -138,7 +138,7 @@ TWINSHADE_FUNCTION void exact_fetch_colors(Sampler2DArray<Real> maps, const Exac
                                           colors);
   detail::colors_by_lane<N, count>(
       view,
-      [&](int lane) { return std::pair(detail::lane_texels<N>(taps, lane), detail::lane_weights<N>(taps, lane)); },
+      [taps](int lane) { return std::pair(detail::lane_texels<N>(taps, lane), detail::lane_weights<N>(taps, lane)); },
       colors);
 }
 
@@ -149,8 +149,8 @@ TWINSHADE_FUNCTION void exact_fetch_colors(Sampler2DArray<Real> maps, const Low&
   using I = Plain<std::int32_t, 1>;
   const TextureView& view = *maps.view;
   if (!detail::has_colors_together(view))
-    return detail::colors_by_layer<N, count>(colors, [&](int k) TWINSHADE_LAMBDA {
-      const I layer(std::min(k, view.layers - 1));
+    return detail::colors_by_layer<N, count>(colors, [maps, low, high](int k) TWINSHADE_LAMBDA {
+      const I layer(std::min(k, maps.view->layers - 1));
       return detail::rgb(exact_fetch<N>(maps, low, layer)) + detail::rgb(exact_fetch<N>(maps, high, layer));
     });
   if constexpr (is_simd<N>)
@@ -160,7 +160,7 @@ TWINSHADE_FUNCTION void exact_fetch_colors(Sampler2DArray<Real> maps, const Low&
           colors);
   detail::colors_by_lane<N, count>(
       view,
-      [&](int lane) {
+      [low, high](int lane) {
         return std::pair(detail::joined(detail::lane_texels<N>(low, lane), detail::lane_texels<N>(high, lane)),
                          detail::joined(detail::lane_weights<N>(low, lane), detail::lane_weights<N>(high, lane)));
       },
@@ -172,8 +172,9 @@ TWINSHADE_FUNCTION void sphere_map_fetch_colors(Sampler2DArray<Real> array, cons
                                                 Colors<N, count>& colors) {
   const TextureView& view = *array.view;
   if (!detail::has_colors_together(view))
-    return detail::colors_by_layer<N, count>(
-        colors, [&](int k) TWINSHADE_LAMBDA { return detail::sphere_map_color<N>(view, taps, maps, k); });
+    return detail::colors_by_layer<N, count>(colors, [array, taps, maps](int k) TWINSHADE_LAMBDA {
+      return detail::sphere_map_color<N>(*array.view, taps, maps, k);
+    });
   if constexpr (is_simd<N> && Maps::width == 1) {
     using I = typename N::I;
     using U = typename N::U;
@@ -198,7 +199,7 @@ TWINSHADE_FUNCTION void sphere_map_fetch_colors(Sampler2DArray<Real> array, cons
   }
   detail::colors_by_lane<N, count>(
       view,
-      [&](int lane) {
+      [taps, maps](int lane) {
         return std::pair(detail::lane_texels<N>(taps, maps, lane), detail::lane_weights<N>(taps, lane));
       },
       colors);

@@ -192,12 +192,13 @@ TWINSHADE_FUNCTION Register<float, K> first_lanes(const V& lanes) {
   (std::make_integer_sequence<int, K>());
 }
 
-// Floats first .. first + K - 1 of a lane's texels, weighted and summed in the order of the GLSL.
+// Floats first .. first + K - 1 of a lane's texels, weighted and summed in the order of the GLSL. at: as TapTable has
+// it.
 template <int K, int T, class Weight>
-TWINSHADE_FUNCTION Register<float, K> weighted_sum(const float* const (&texel)[T], const Weight (&weight)[T],
-                                                   int first) {
+TWINSHADE_FUNCTION Register<float, K> weighted_sum(const float* texels, const std::size_t (&at)[T],
+                                                   const Weight (&weight)[T], int first) {
   const auto product = [&](int tap) TWINSHADE_LAMBDA {
-    return registers::load<K>(texel[tap] + first) * first_lanes<K>(weight[tap]);
+    return registers::load<K>(texels + at[tap] * 2 + first) * first_lanes<K>(weight[tap]);
   };
   const auto four = [&](int tap) TWINSHADE_LAMBDA {
     return (product(tap) + product(tap + 1)) + (product(tap + 2) + product(tap + 3));
@@ -208,32 +209,58 @@ TWINSHADE_FUNCTION Register<float, K> weighted_sum(const float* const (&texel)[T
     return four(0) + four(4);
 }
 
-// The first `floats` floats, a multiple of 4, of each lane's texels: put(first lane, float's number as a constant,
-// register of lanes). A lane's pointers and weights are loaded once for all of them.
-template <int floats, int W, int T, int All, class Put>
-TWINSHADE_FUNCTION void filter_floats(const float* texels, const TapTable<All, T>& taps, int first_lane, Put put) {
+// Where in its texels each lane's floats begin, `count` times: in memory, in twos of floats, given in fours.
+template <int W, int count_>
+struct Starts {
+  static constexpr int count = count_;
+  alignas(64) std::uint32_t from[count][W];
+
+  template <class... U>
+  TWINSHADE_INLINE explicit Starts(const U&... first) {
+    int k = 0;
+    ((first + first).store(from[k++]), ...);
+  }
+  TWINSHADE_INLINE std::size_t at(int k, int lane) const { return std::size_t{from[k][lane]} * 2; }
+};
+// With the texel, once.
+struct TexelStart {
+  static constexpr int count = 1;
+  TWINSHADE_INLINE std::size_t at(int, int) const { return 0; }
+};
+
+// `floats` floats, a multiple of 4, of each lane's texels from each of its starts on: put(first lane, float's number as
+// a constant, those of one start after those of another, register of lanes). A lane's taps and weights are loaded once
+// for all of them.
+template <int floats, int W, int T, int All, class Start, class Put>
+TWINSHADE_FUNCTION void filter_floats(const float* texels, const TapTable<All, T>& taps, const Start& starts,
+                                      int first_lane, Put put) {
   if constexpr (!Simd<float, W>::whole) {
-    filter_floats<floats, W / 2>(texels, taps, first_lane, put);
-    filter_floats<floats, W / 2>(texels, taps, first_lane + W / 2, put);
+    filter_floats<floats, W / 2>(texels, taps, starts, first_lane, put);
+    filter_floats<floats, W / 2>(texels, taps, starts, first_lane + W / 2, put);
   } else {
+    constexpr int G = Start::count;
     // Whole registers, then what is left: half a register of 16, then four floats.
     constexpr int kParts = floats / W, kRest = floats % W, kEight = kRest >= 8 ? 8 : 0, kFour = kRest % 8;
     static_assert(kFour == 0 || kFour == 4);
     // (One part too many, lest there be none.) In memory as numbers: compilers copy arrays of registers by halves,
     // which wait for the stores of whole ones.
-    alignas(64) float parts[kParts + 1][W][W], eights[W][8], fours[W][4];
+    alignas(64) float parts[G][kParts + 1][W][W], eights[G][W][8], fours[G][W][4];
     for (int lane = 0; lane < W; ++lane) {
-      const float* texel[T];
+      std::size_t at[T];
       Register<float, W> weight[T];
       for (int tap = 0; tap < T; ++tap) {
-        texel[tap] = texels + std::size_t{taps.at[tap][first_lane + lane]} * 2;
+        at[tap] = taps.at[tap][first_lane + lane];
         weight[tap] = registers::splat<float, W>(taps.weight[tap][first_lane + lane]);
       }
-      unrolled<kParts>([&](auto part) TWINSHADE_LAMBDA {
-        registers::store(parts[part][lane], weighted_sum<W>(texel, weight, part * W));
+      unrolled<G>([&](auto g) TWINSHADE_LAMBDA {
+        const float* const from = texels + starts.at(g, first_lane + lane);
+        unrolled<kParts>([&](auto part) TWINSHADE_LAMBDA {
+          registers::store(parts[g][part][lane], weighted_sum<W>(from, at, weight, part * W));
+        });
+        if constexpr (kEight != 0) registers::store(eights[g][lane], weighted_sum<8>(from, at, weight, kParts * W));
+        if constexpr (kFour != 0)
+          registers::store(fours[g][lane], weighted_sum<4>(from, at, weight, kParts * W + kEight));
       });
-      if constexpr (kEight != 0) registers::store(eights[lane], weighted_sum<8>(texel, weight, kParts * W));
-      if constexpr (kFour != 0) registers::store(fours[lane], weighted_sum<4>(texel, weight, kParts * W + kEight));
     }
     // rows[j]: four floats of lanes j, j + 4 ...
     const auto put_four = [&](auto first, const Register<float, W>* rows) TWINSHADE_LAMBDA {
@@ -242,33 +269,45 @@ TWINSHADE_FUNCTION void filter_floats(const float* texels, const TapTable<All, T
       unrolled<4>([&](auto c)
                       TWINSHADE_LAMBDA { put(first_lane, std::integral_constant<int, first + c>(), channels[c]); });
     };
-    unrolled<kParts>([&](auto part) TWINSHADE_LAMBDA {
-      Register<float, W> rows[W];
-      unrolled<W>([&](auto i) TWINSHADE_LAMBDA { rows[i] = registers::load<W>(parts[part][i]); });
-      transpose_blocks(rows);
-      unrolled<W / 4>(
-          [&](auto i) TWINSHADE_LAMBDA { put_four(std::integral_constant<int, part * W + 4 * i>(), rows + 4 * i); });
-    });
-    if constexpr (kEight != 0) {
-      Register<float, W> rows[8];
-      const auto eight = [&](int lane) TWINSHADE_LAMBDA { return registers::load<8>(eights[lane]); };
-      unrolled<4>([&](auto j) TWINSHADE_LAMBDA {
-        const auto a = registers::concatenate(eight(j), eight(j + 4));
-        const auto b = registers::concatenate(eight(j + 8), eight(j + 12));
-        rows[j] = even_blocks(a, b);
-        rows[4 + j] = odd_blocks(a, b);
+    unrolled<G>([&](auto g) TWINSHADE_LAMBDA {
+      constexpr int kFirst = g * floats;
+      unrolled<kParts>([&](auto part) TWINSHADE_LAMBDA {
+        Register<float, W> rows[W];
+        unrolled<W>([&](auto i) TWINSHADE_LAMBDA { rows[i] = registers::load<W>(parts[g][part][i]); });
+        transpose_blocks(rows);
+        unrolled<W / 4>([&](auto i) TWINSHADE_LAMBDA {
+          put_four(std::integral_constant<int, kFirst + part * W + 4 * i>(), rows + 4 * i);
+        });
       });
-      put_four(std::integral_constant<int, kParts * W>(), rows);
-      put_four(std::integral_constant<int, kParts * W + 4>(), rows + 4);
-    }
-    if constexpr (kFour != 0) {
-      const auto four = [&](int lane) TWINSHADE_LAMBDA { return registers::load<4>(fours[lane]); };
-      const Register<float, W> rows[4] = {registers::texel_row<W>(four, 0), registers::texel_row<W>(four, 1),
-                                          registers::texel_row<W>(four, 2), registers::texel_row<W>(four, 3)};
-      put_four(std::integral_constant<int, kParts * W + kEight>(), rows);
-    }
+      if constexpr (kEight != 0) {
+        Register<float, W> rows[8];
+        const auto eight = [&](int lane) TWINSHADE_LAMBDA { return registers::load<8>(eights[g][lane]); };
+        unrolled<4>([&](auto j) TWINSHADE_LAMBDA {
+          const auto a = registers::concatenate(eight(j), eight(j + 4));
+          const auto b = registers::concatenate(eight(j + 8), eight(j + 12));
+          rows[j] = even_blocks(a, b);
+          rows[4 + j] = odd_blocks(a, b);
+        });
+        put_four(std::integral_constant<int, kFirst + kParts * W>(), rows);
+        put_four(std::integral_constant<int, kFirst + kParts * W + 4>(), rows + 4);
+      }
+      if constexpr (kFour != 0) {
+        const auto four = [&](int lane) TWINSHADE_LAMBDA { return registers::load<4>(fours[g][lane]); };
+        const Register<float, W> rows[4] = {registers::texel_row<W>(four, 0), registers::texel_row<W>(four, 1),
+                                            registers::texel_row<W>(four, 2), registers::texel_row<W>(four, 3)};
+        put_four(std::integral_constant<int, kFirst + kParts * W + kEight>(), rows);
+      }
+    });
   }
 }
+
+// Room for a value that a filter fills: it would be zero first.
+template <class T>
+union Unset {
+  T value;
+  TWINSHADE_INLINE Unset() {}
+  ~Unset() = default;
+};
 
 // Lanes first_lane .. of the number-th of an aggregate's Simd<float, W>.
 template <int W, class Aggregate, class V>
@@ -281,17 +320,18 @@ TWINSHADE_FUNCTION void store_lanes(Aggregate& aggregate, int number, int first_
 template <int count, int W, int T>
 __attribute__((noinline)) TWINSHADE_WHOLE void filter_layers(const float* texels, const TapTable<W, T>& taps,
                                                              vec<Simd<float, W>, 4> (&layers)[count]) {
-  filter_floats<4 * count, W>(texels, taps, 0, [&](int first_lane, auto number, const auto& lanes) TWINSHADE_LAMBDA {
-    store_lanes<W>(layers, number, first_lane, lanes);
-  });
+  filter_floats<4 * count, W>(texels, taps, TexelStart(), 0,
+                              [&](int first_lane, auto number, const auto& lanes)
+                                  TWINSHADE_LAMBDA { store_lanes<W>(layers, number, first_lane, lanes); });
 }
 
-// The colours of three layers that lie side by side, four floats each.
+// The colours of three layers that lie side by side, four floats each, from three layers on.
 template <int W, int T>
-__attribute__((noinline)) TWINSHADE_WHOLE void filter_three_colors(const float* texels, const TapTable<W, T>& taps,
-                                                                   mat<Simd<float, W>, 3, 3>& layers) {
-  filter_floats<12, W>(texels, taps, 0, [&](int first_lane, auto number, const auto& lanes) TWINSHADE_LAMBDA {
-    if constexpr (number % 4 != 3) store_lanes<W>(layers, number / 4 * 3 + number % 4, first_lane, lanes);
+__attribute__((noinline)) TWINSHADE_WHOLE void filter_threes(const float* texels, const TapTable<W, T>& taps,
+                                                             const Starts<W, 3>& first,
+                                                             arr<mat<Simd<float, W>, 3, 3>, 3>& threes) {
+  filter_floats<12, W>(texels, taps, first, 0, [&](int first_lane, auto number, const auto& lanes) TWINSHADE_LAMBDA {
+    if constexpr (number % 4 != 3) store_lanes<W>(threes, number / 4 * 3 + number % 4, first_lane, lanes);
   });
 }
 
@@ -302,7 +342,7 @@ constexpr int color_floats(int count) { return count / 5 * 16 + (count % 5 == 0 
 template <int count, int W, int T>
 __attribute__((noinline)) TWINSHADE_WHOLE void filter_colors(const float* texels, const TapTable<W, T>& taps,
                                                              arr<vec<Simd<float, W>, 3>, count>& colors) {
-  filter_floats<color_floats(count), W>(texels, taps, 0,
+  filter_floats<color_floats(count), W>(texels, taps, TexelStart(), 0,
                                         [&](int first_lane, auto number, const auto& lanes) TWINSHADE_LAMBDA {
                                           constexpr int channel = number / 16 * 15 + number % 16;
                                           if constexpr (number % 16 != 15 && channel < 3 * count)

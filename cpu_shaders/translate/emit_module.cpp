@@ -154,7 +154,7 @@ class ModuleEmitter {
         case Role::output:
         case Role::frag_depth:
           out.line(types_.name(g.type, true) + " " + g.name + ";");
-          reset_ += "    " + g.name + " = " + types_.name(g.type, true) + "{};\n";
+          if (!is_written_first(program_, id)) reset_ += "    " + g.name + " = " + types_.name(g.type, true) + "{};\n";
           break;
         case Role::global: {
           const std::string type = types_.name(g.type, instances_.varying_globals.count(id) != 0);

@@ -1,6 +1,7 @@
 #include "cpu_shaders/translate/written_first.h"
 
 #include <algorithm>
+#include <map>
 
 namespace twinshade::spirv {
 namespace {
@@ -11,22 +12,36 @@ class Search {
  public:
   Search(const Program& program, Id global) : program_(program), global_(global) {}
 
-  // What becomes of the global first in the function. Only what every lane comes to counts: statements within branches
-  // and loops must leave it alone, and none must let some lanes go, since stores of the whole function have masks then.
-  First in_function(const FunctionInfo& info) const {
-    if (std::any_of(info.body.list.begin(), info.body.list.end(), [](const auto& s) { return lanes_may_go(*s); }))
-      return First::other;
-    for (const auto& s : info.body.list) {
+  // What becomes of the global first in the function. Only what every lane comes to counts: branches must both write it
+  // or leave it alone, loops must leave it alone, and nothing must let some lanes go, since stores of the whole
+  // function have masks then.
+  First in_function(const FunctionInfo& info) {
+    const auto [found, is_new] = found_.try_emplace(&info, First::other);  // each once, however often it is called
+    if (!is_new) return found->second;
+    if (std::none_of(info.body.list.begin(), info.body.list.end(), [](const auto& s) { return lanes_may_go(*s); }))
+      found->second = in_list(info, info.body.list);
+    return found->second;
+  }
+
+ private:
+  First in_list(const FunctionInfo& info, const List& list) {
+    for (const auto& s : list) {
       if (s->shape == Shape::give_back) break;
-      if (s->shape != Shape::code && is_mentioned(*s)) return First::other;
+      First first = First::nothing;
+      if (s->shape == Shape::choice) {
+        first = in_list(info, s->then_list);
+        if (in_list(info, s->else_list) != first) first = First::other;
+      } else if (s->shape != Shape::code && is_mentioned(*s)) {
+        first = First::other;
+      }
       for (const Instruction& i : s->code)
-        if (const First first = in_instruction(info, i); first != First::nothing) return first;
+        if (first == First::nothing) first = in_instruction(info, i);
+      if (first != First::nothing) return first;
     }
     return First::nothing;
   }
 
- private:
-  First in_instruction(const FunctionInfo& info, const Instruction& i) const {
+  First in_instruction(const FunctionInfo& info, const Instruction& i) {
     if (i.op == spv::OpStore && i.operands[0] == global_)
       return is_partly_filled(info, i.operands[1]) ? First::other : First::whole;
     for (Id id : value_operands(i))
@@ -81,6 +96,7 @@ class Search {
 
   const Program& program_;
   const Id global_;
+  std::map<const FunctionInfo*, First> found_;
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Which globals need no value to begin with: those that the shader writes, whole and in all lanes, before it reads
-// them.
+// Which globals and outputs need no value to begin with: those that the shader writes, whole and in all lanes, before
+// it reads them.
 #pragma once
 
 #include "cpu_shaders/translate/function_info.h"

@@ -209,11 +209,12 @@ class Binder {
     if (wanted.layer_order == LayerOrder::colors_together) interleave_colors(view);
   }
 
-  // Rows that no other layout has moved, where row_pitch says so.
+  // Rows of large textures that no other layout has moved, where row_pitch says so.
   void move_rows_apart(TextureView& view) {
     const std::size_t row = std::size_t(view.width) * 4, pitch = row_pitch(row);
-    if (view.texel_pitch != 4 || std::size_t(view.row_pitch) == pitch) return;
     const std::size_t rows = std::size_t(view.height) * std::size_t(view.layers);
+    if (view.texel_pitch != 4 || std::size_t(view.row_pitch) == pitch || rows * row * sizeof(float) < kLargeTexture)
+      return;
     AlignedArray<float>& to = draw_.laid_out.emplace_back(rows * pitch);
     parallel_for(rows, [&](std::size_t y, int) { std::copy_n(view.texels + y * row, row, &to[y * pitch]); });
     view.texels = to.data();

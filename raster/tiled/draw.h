@@ -123,8 +123,8 @@ class TileWorker {
   AlignedArray<float> depth_;
   AlignedArray<std::uint32_t> visible_;
   // Of the tile's pixels in memory order, when shading is done; clear where nothing is visible.
-  AlignedArray<float> color_;  // RGBA
-  AlignedArray<std::uint32_t> primitive_id_;
+  AlignedArray<float> color_;                 // RGBA
+  AlignedArray<std::uint32_t> primitive_id_;  // if DrawOptions::visibility
   std::vector<const RasterTriangle*> triangles_;
   std::vector<std::uint32_t> locals_;
   std::vector<LocalPrimitive> primitives_;

@@ -14,9 +14,11 @@
 // w is 0/0 at the vertices: 6 b_0 b_1 b_2 w_k tends to 0 there.
 #include "basis/ambient_dice_functions.glsl"
 
-// Coefficients i, i + 1 and i + 2 at once: an includer who can do better than three reads defines it.
-#ifndef COEF_3
-#define COEF_3(i) mat3(COEF(i), COEF((i) + 1), COEF((i) + 2))
+// Coefficients k, k + 1 and k + 2 as columns of a matrix, for i.x, i.y and i.z, at once: an includer who can do better than nine
+// reads defines it.
+#ifndef COEF_THREES
+#define COEF_3(k) mat3(COEF(k), COEF((k) + 1), COEF((k) + 2))
+#define COEF_THREES(i, threes) threes[0] = COEF_3(i.x); threes[1] = COEF_3(i.y); threes[2] = COEF_3(i.z)
 #endif
 
 struct DicePatch {
@@ -95,4 +97,21 @@ float dice_weight(DiceWeights weights, int i) {
            : vertex == weights.vertex.z ? weights.third
                                         : vec3(0.0);
   return which == 0 ? w.x : which == 1 ? w.y : w.z;
+}
+
+// Irradiance from the three vertices' coefficients, numbered so.
+vec3 dice_irradiance(DiceWeights weights) {
+  ivec3 base = weights.vertex * 3;
+  mat3 vertices[3];
+  COEF_THREES(base, vertices);
+  precise vec3 irradiance = vertices[0][0] * weights.first.x;
+  irradiance += vertices[0][1] * weights.first.y;
+  irradiance += vertices[0][2] * weights.first.z;
+  irradiance += vertices[1][0] * weights.second.x;
+  irradiance += vertices[1][1] * weights.second.y;
+  irradiance += vertices[1][2] * weights.second.z;
+  irradiance += vertices[2][0] * weights.third.x;
+  irradiance += vertices[2][1] * weights.third.y;
+  irradiance += vertices[2][2] * weights.third.z;
+  return irradiance;
 }

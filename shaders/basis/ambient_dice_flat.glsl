@@ -11,19 +11,5 @@ float basis_value(int i, vec3 n) {
 }
 
 vec3 basis_irradiance(vec3 n) {
-  DiceWeights weights = dice_flat_weights(dice_triangle(n));
-  ivec3 base = weights.vertex * 3;
-  mat3 vertex = COEF_3(base.x);
-  precise vec3 irradiance = vertex[0] * weights.first.x;
-  irradiance += vertex[1] * weights.first.y;
-  irradiance += vertex[2] * weights.first.z;
-  vertex = COEF_3(base.y);
-  irradiance += vertex[0] * weights.second.x;
-  irradiance += vertex[1] * weights.second.y;
-  irradiance += vertex[2] * weights.second.z;
-  vertex = COEF_3(base.z);
-  irradiance += vertex[0] * weights.third.x;
-  irradiance += vertex[1] * weights.third.y;
-  irradiance += vertex[2] * weights.third.z;
-  return irradiance;
+  return dice_irradiance(dice_flat_weights(dice_triangle(n)));
 }

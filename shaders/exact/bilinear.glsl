@@ -82,6 +82,13 @@ mat3 exact_fetch_3(sampler2DArray maps, ExactTaps low, ExactTaps high, int first
   return mat3(a, b, c);
 }
 
+// The same from first.x, first.y and first.z on.
+void exact_fetch_threes(sampler2DArray maps, ExactTaps low, ExactTaps high, ivec3 first, out mat3 threes[3]) {
+  threes[0] = exact_fetch_3(maps, low, high, first.x);
+  threes[1] = exact_fetch_3(maps, low, high, first.y);
+  threes[2] = exact_fetch_3(maps, low, high, first.z);
+}
+
 // The same layer of two arrays, a column each.
 mat2x4 exact_fetch_pair(sampler2DArray first, sampler2DArray second, ExactTaps taps, int layer) {
   return mat2x4(exact_fetch(first, taps, layer), exact_fetch(second, taps, layer));

@@ -49,13 +49,8 @@ void load_coefficients() {
   place_volume_taps();
 }
 
-// Coefficients i to i + 2.
-mat3 volume_coefficients_3(int i) {
-  return exact_fetch_3(COEFFICIENTS, volume_low, volume_high, i);
-}
-
 #define COEF(i) volume_coefficient(i)
-#define COEF_3(i) volume_coefficients_3(i)
+#define COEF_THREES(i, threes) exact_fetch_threes(COEFFICIENTS, volume_low, volume_high, i, threes)
 #else
 vec3 coefficients[COEFFICIENT_COUNT];
 

@@ -1,5 +1,5 @@
-// Light that a Lambertian surface reflects: albedo / pi times the irradiance that the basis reconstructs at the mapped normal.
-// After surface.glsl, a coefficients_*.glsl and a basis.
+// Light that a Lambertian surface reflects: albedo / pi times the irradiance that the basis reconstructs at the surface's normal.
+// After a surface*.glsl, a coefficients_*.glsl and a basis.
 
 vec3 reflected_light() {
   load_surface_maps();

@@ -45,29 +45,44 @@ uniform sampler2DArray right;
 in vec2 uv;
 in float layer;
 out vec4 first[2];
-out vec3 sums[9];
-out vec3 one_for_all;
 out vec4 both[2];
 out vec4 both_at_layer[2];
 void main() {
   ExactTaps taps = exact_taps_clamp(uv, textureSize(maps, 0).xy);
-  ExactTaps high = exact_taps_clamp(uv.yx, textureSize(maps, 0).xy);
   exact_fetch_layers(maps, taps, first);
-  mat3 three = exact_fetch_3(maps, taps, high, 0);
-  mat3 past_last = exact_fetch_3(maps, taps, high, 2);
-  mat3 by_lane = exact_fetch_3(maps, taps, high, int(layer));
-  one_for_all = exact_fetch_3(maps, exact_taps_clamp(vec2(0.3, 0.6), textureSize(maps, 0).xy), taps, 0)[1];
   taps = exact_taps_repeat(uv, textureSize(left, 0).xy);
   mat2x4 two = exact_fetch_pair(left, right, taps, 1);
   mat2x4 two_varying = exact_fetch_pair(left, right, taps, int(layer));
-  for (int i = 0; i < 3; ++i) {
-    sums[i] = three[i];
-    sums[3 + i] = past_last[i];
-    sums[6 + i] = by_lane[i];
-  }
   for (int i = 0; i < 2; ++i) {
     both[i] = two[i];
     both_at_layer[i] = two_varying[i];
+  }
+}
+)";
+
+// Sums of two, of three layers from three on: all there; past the last one; before the first one, all lanes alike.
+constexpr const char* kThrees = R"(
+#include "exact/bilinear.glsl"
+uniform sampler2DArray maps;
+in vec2 uv;
+in float layer;
+out vec3 inside[9];
+out vec3 beyond[9];
+out vec3 one_for_all[9];
+void main() {
+  ExactTaps low = exact_taps_clamp(uv, textureSize(maps, 0).xy);
+  ExactTaps high = exact_taps_clamp(uv.yx, textureSize(maps, 0).xy);
+  int i = int(layer);
+  mat3 at[3];
+  mat3 past[3];
+  mat3 alike[3];
+  exact_fetch_threes(maps, low, high, ivec3(i, 5 - i, 1), at);
+  exact_fetch_threes(maps, high, low, ivec3(i * 3, 2, 6), past);
+  exact_fetch_threes(maps, exact_taps_clamp(vec2(0.3, 0.6), textureSize(maps, 0).xy), low, ivec3(5, 0, 3), alike);
+  for (int k = 0; k < 9; ++k) {
+    inside[k] = at[k / 3][k % 3];
+    beyond[k] = past[k / 3][k % 3];
+    one_for_all[k] = alike[k / 3][k % 3];
   }
 }
 )";
@@ -262,7 +277,7 @@ TEST_CASE("fetches of several layers or textures give the bits of their GLSL, si
   const TextureView together = four.layers(array);
   const auto [left, right] = two.pair(array, array);
   for (const float spread : {1.0f, 0.01f})  // 0.01: all lanes of a group at the same texels
-    for (const char* name : {"exact_fetch_3", "exact_fetch_layers", "exact_fetch_pair"}) {
+    for (const char* name : {"exact_fetch_layers", "exact_fetch_pair"}) {
       CAPTURE(spread);
       const auto inputs = random_rows(4000, spread);
       check_served(kSeveral, name, inputs, std::array{array, array, array});
@@ -285,6 +300,17 @@ struct ManyLayers {
     view.layer_pitch = view.row_pitch * kWidth;
   }
 };
+
+TEST_CASE(
+    "fetches of three times three layers give the bits of their GLSL, side by side in memory or not, all there or "
+    "not") {
+  const ManyLayers array(8), few(2);
+  SideBySide layers;
+  const TextureView together = layers.layers(array.view);
+  for (const TextureView& view : {array.view, together, few.view})
+    for (const float spread : {1.0f, 0.001f})
+      check_served(kThrees, "exact_fetch_threes", random_rows(4000, spread), std::array{view});
+}
 
 TEST_CASE("fetches of sphere maps give the bits of their GLSL, side by side in memory or not") {
   const ManyLayers array(8);
@@ -374,7 +400,7 @@ TEST_CASE("the reflection says how the layers of a sampler should lie") {
                                                      "#include \"exact/fetch_colors.glsl\"\n"
                                                      "#include \"exact/fetch_layers.glsl\"\n"
                                                      "uniform sampler2DArray maps;\nin vec2 uv;\nout vec4 color;\n"
-                                                     "vec3 colors[5];\nvec4 layers[2];\n"
+                                                     "vec3 colors[5];\nvec4 layers[2];\nmat3 threes[3];\n"
                                                      "void five(sampler2DArray of, ExactTaps taps) {\n"
                                                      "  exact_fetch_colors(of, taps, colors);\n}\n" +
                                                          main,
@@ -386,7 +412,8 @@ TEST_CASE("the reflection says how the layers of a sampler should lie") {
   const std::string five = taps + "  five(maps, taps);\n";
   CHECK(order(taps + "color = exact_fetch(maps, taps, 0); }\n") == LayerOrder::apart);
   CHECK(order(taps + "exact_fetch_layers(maps, taps, layers); color = layers[1]; }\n") == LayerOrder::together);
-  CHECK(order(taps + "color.rgb = exact_fetch_3(maps, taps, taps, 0)[1]; }\n") == LayerOrder::together);
+  const std::string threes = "exact_fetch_threes(maps, taps, taps, ivec3(0), threes); color.rgb = threes[0][1]; }\n";
+  CHECK(order(taps + threes) == LayerOrder::together);
   CHECK(order(taps + "exact_fetch_colors(maps, taps, taps, colors); color.rgb = colors[1]; }\n") ==
         LayerOrder::colors_together);
   CHECK(order(five + "color = vec4(colors[1], 1.0); }\n") == LayerOrder::colors_together);
@@ -394,7 +421,7 @@ TEST_CASE("the reflection says how the layers of a sampler should lie") {
   CHECK(order(five + "color = exact_fetch(maps, taps, 0); }\n") == LayerOrder::apart);
   CHECK(order(five + "color = texelFetch(maps, ivec3(0), 0); }\n") == LayerOrder::apart);
   CHECK(order(five + "color = texture(maps, vec3(uv, 0.0)); }\n") == LayerOrder::apart);
-  CHECK(order(five + "color.rgb = exact_fetch_3(maps, taps, taps, 0)[1]; }\n") == LayerOrder::together);
+  CHECK(order(five + threes) == LayerOrder::together);
 }
 
 TEST_CASE("in double the transcendentals of shaders/exact/ are good to 1e-15, not to their float polynomials") {

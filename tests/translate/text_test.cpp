@@ -288,16 +288,38 @@ TEST_CASE("globals that are written before they are read have no value to begin 
   CHECK_FALSE(has(global("void main() {\n  g = n;\n" + tail), "g = vec3{};"));
   CHECK(has(global("void main() {\n  g = n;\n" + tail), "a = arr<uniform_vec3, 2>{};"));
   CHECK_FALSE(has(global("void fill() { g = n; }\nvoid main() {\n  fill();\n" + tail), "g = vec3{};"));
+  // Both branches write it, of uniform and of varying conditions, in functions and further in.
+  for (const char* begin : {"  if (count > 1) g = n; else g = n.yzx;\n", "  if (x > 0.5) g = n; else fill();\n",
+                            "  if (count > 1) { c.x = x; g = n; } else if (x > 0.5) fill(); else g = -n;\n"}) {
+    CAPTURE(begin);
+    CHECK_FALSE(has(global("void fill() { g = n; }\nvoid main() {\n" + std::string(begin) + tail), "g = vec3{};"));
+  }
+  CHECK_FALSE(has(global("void main() {\n  g = n;\n" + tail), "c = vec4{};"));  // outputs, too
   for (const char* begin :
        {"  g.x = x;\n", "  c.x = g.x;\n  g = n;\n", "  if (x > 0.5) g = n;\n", "  if (x > 0.5) discard;\n  g = n;\n",
         "  if (x > 0.5) return;\n  g = n;\n", "  g = n;\n  if (x > 0.5) return;\n",
-        "  for (int i = 0; i < count; ++i) g = n;\n", "  if (count > 1) c = vec4(g, 1.0);\n  g = n;\n"}) {
+        "  for (int i = 0; i < count; ++i) g = n;\n", "  if (count > 1) c = vec4(g, 1.0);\n  g = n;\n",
+        "  if (x > 0.5) g = n; else g.x = x;\n", "  if (x > 0.5) g = n; else c.x = x;\n",
+        "  if (x > 0.5) g = n; else c.x = g.y;\n", "  if (x > 0.5) { g = n; if (x > 0.7) return; } else g = -n;\n"}) {
     CAPTURE(begin);
     CHECK(has(global("void main() {\n" + std::string(begin) + tail), "g = vec3{};"));
   }
+  CHECK(has(global("void main() {\n  if (x > 0.5) c = vec4(n, 1.0);\n  g = n;\n}\n"), "c = vec4{};"));
   CHECK(has(global("void fill() { if (x > 0.5) return; g = n; }\nvoid main() {\n  fill();\n" + tail), "g = vec3{};"));
   CHECK(
       has(global("void fill() { if (x > 0.5) discard; }\nvoid main() {\n  fill();\n  g = n;\n" + tail), "g = vec3{};"));
+}
+
+TEST_CASE("what is written first is found in no more time for calls in both branches, one within the other") {
+  std::string text = "#version 450\nin float x;\nout vec4 c;\nvec3 g;\nvoid f0() { g = vec3(x); }\n";
+  for (int i = 1; i <= 24; ++i) {
+    const std::string callee = "f" + std::to_string(i - 1) + "();";
+    text += "void f" + std::to_string(i) + "() { if (x > " + std::to_string(i) + ".5) " + callee + " else " + callee +
+            " }\n";
+  }
+  const std::string cpp =
+      of(text + "void main() {\n  f24();\n  c = vec4(g, 1.0);\n}\n").cpp;  // seconds, if not once for each
+  CHECK_FALSE(has(cpp, "g = vec3{};"));
 }
 
 TEST_CASE("globals are passed themselves where the callee writes them, and does not know them otherwise") {

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include "base/parallel.h"
@@ -180,7 +181,9 @@ TEST_CASE("frames without ids and coverage have the same colours and depth") {
         CHECK(std::memcmp(frame.color.data(), whole.color.data(), whole.color.size() * sizeof(float)) == 0);
         CHECK(frame.depth == whole.depth);
         REQUIRE(frame.color64.size() == whole.color64.size());
-        CHECK(std::memcmp(frame.color64.data(), whole.color64.data(), whole.color64.size() * sizeof(double)) == 0);
+        CHECK(std::equal(frame.color64.begin(), frame.color64.end(), whole.color64.begin(), [](double x, double y) {
+          return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+        }));
       }
   }
 }

@@ -60,7 +60,7 @@ void main() {
 }
 )";
 
-// Sums of two, of three layers from three on: all there; past the last one; before the first one, all lanes alike.
+// Sums of two taps, of three layers from each of three on: all there; some past the last layer; alike for all lanes.
 constexpr const char* kThrees = R"(
 #include "exact/bilinear.glsl"
 uniform sampler2DArray maps;

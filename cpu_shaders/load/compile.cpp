@@ -44,18 +44,20 @@ ProgramResult link(const Compiler& compiler, const std::vector<std::string>& fla
 
 void build(const std::string& text, const Compiler& compiler, const CompileOptions& options,
            const std::string& target) {
-  const std::string source = target + ".cpp", runtime = unpack_runtime();
+  // Symbol tables hold the source's name. One name in a folder for each: a text gives the same bytes whenever compiled.
+  const std::string folder = target + ".source", source = folder + "/shader.cpp", runtime = unpack_runtime();
   std::vector<std::string> flags = flags_of(options);
   flags.insert(flags.end(), {"-I", runtime});
   const PreparedRuntime prepared = prepare_runtime(runtime, compiler, flags);
+  std::error_code ignored;
+  fs::create_directory(folder, ignored);  // write_file says what is wrong
   write_file(source, text);
   ProgramResult result = link(compiler, flags, {"-include", prepared.header, source, prepared.portable_math}, target);
   if (result.status != 0 && !result.timed_out) {  // the shader's fault, or the prepared runtime's?
     result = link(compiler, flags, {source, runtime + "/base/portable_math.cpp"}, target);
     if (result.status == 0) discard_prepared(prepared);
   }
-  std::error_code ignored;
-  fs::remove(source, ignored);
+  fs::remove_all(folder, ignored);
   require_made(target, compiler, result, "the translated shader");
   seal(target);
 }

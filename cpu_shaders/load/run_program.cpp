@@ -36,7 +36,7 @@ constexpr const char* kRun =
 // made; what ignores it is killed, and this shell with it.
 constexpr const char* kWatch =
     "PATH=/usr/bin:/bin; trap '' HUP INT TERM; read -r _; kill -TERM 0; sleep 0.2; rm -rf \"$1\"; [ -z \"$2\" ] || rm "
-    "-f \"$2\"[.-]*; "
+    "-rf \"$2\"[.-]*; "
     "kill -KILL 0";
 
 // A folder of its own, empty where there is no place for one: compilers find another, or say what they miss.

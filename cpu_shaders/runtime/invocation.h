@@ -195,11 +195,9 @@ class ShaderBase {
 template <template <class> class S, class N>
 TWINSHADE_WHOLE static void shade_all(const ShaderData& data, const ShadeCall& call) {
   S<N> shader(data, call);
-  std::uint32_t asked = 0;
+  std::conditional_t<is_simd<N>, TexelPrefetch<N>, NoTexelPrefetch> texels(data, call);
   for (std::uint32_t first = 0; first < call.count; first += N::width) {
-    if constexpr (is_simd<N>)
-      for (; call.ahead_count > 0 && asked < call.count && asked <= first + kInvocationsAhead; asked += N::width)
-        ask_for_texels<N>(data, call, asked);
+    texels.ask_until(first + kInvocationsAhead + N::width);
     shader.begin(first);
     shader.run();
     shader.finish();

@@ -191,7 +191,7 @@ TWINSHADE_FUNCTION void sphere_map_fetch_colors(Sampler2DArray<Real> array, cons
         using twinshade::detail::clamp_to_size;
         return twinshade::detail::texel_index(view, clamp_to_size(texels[tap].x, view.width),
                                               clamp_to_size(texels[tap].y, view.height)) +
-               first_line(texels[tap]).template to<std::uint32_t>() * U(4u);
+               first_line(texels[tap]).template to<std::uint32_t>() * U(8u);
       };
       const detail::Taps<N::width> where{{at(0), at(1), at(2), at(3)}, vec<typename N::F, 4>(taps.weight)};
       return detail::filter_colors<count>(view.texels, detail::TapTable<N::width, 4>(where), colors);

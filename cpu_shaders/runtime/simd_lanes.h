@@ -385,6 +385,14 @@ struct Simd : SimdBase<Simd<E, W>, Simd<E, W / 2>, E, W> {
       return Base::template each<Simd>([](auto c, auto x, auto y) TWINSHADE_LAMBDA { return c ? x : y; }, m, a, b);
     }
   }
+  // The same in fewer instructions where compilers do not know that m's lanes are 0 or -1, but more where they do.
+  friend TWINSHADE_INLINE Simd blend(mask m, Simd a, Simd b) {
+    if constexpr (kMaskRegister<W>)
+      return select(m, a, b);
+    else
+      return Base::template each<Simd>(
+          [](auto c, auto x, auto y) TWINSHADE_LAMBDA { return registers::blend(c, x, y); }, m, a, b);
+  }
   // The other operand where one is NaN; of +0 and -0 the second.
   friend TWINSHADE_INLINE Simd lanes_min(Simd a, Simd b) {
     return Base::template each<Simd>([](auto x, auto y) TWINSHADE_LAMBDA { return registers::lesser(x, y); }, a, b);

@@ -220,6 +220,10 @@ TWINSHADE_INLINE Int8 to_int(Float8 x) {
 }
 TWINSHADE_INLINE Float8 lesser(Float8 x, Float8 y) { return y != y ? x : (Float8)_mm256_min_ps((__m256)x, (__m256)y); }
 TWINSHADE_INLINE Float8 larger(Float8 x, Float8 y) { return y != y ? x : (Float8)_mm256_max_ps((__m256)x, (__m256)y); }
+template <class V>
+TWINSHADE_INLINE V blend(Int8 lanes, V x, V y) {
+  return (V)_mm256_blendv_ps((__m256)y, (__m256)x, (__m256)lanes);
+}
 TWINSHADE_INLINE bool any(Int8 m) { return _mm256_movemask_ps((__m256)m) != 0; }
 TWINSHADE_INLINE bool all(Int8 m) { return _mm256_movemask_ps((__m256)m) == 255; }
 TWINSHADE_INLINE std::uint32_t mask_bits(Int8 m) { return static_cast<std::uint32_t>(_mm256_movemask_ps((__m256)m)); }

@@ -19,7 +19,7 @@ TWINSHADE_FUNCTION V spread_lane(const V& lanes) {
   (std::make_integer_sequence<int, sizeof(V) / 4>());
 }
 
-// The four texels of W lanes, in fours of floats from the texture's first, and their weights: (x0,y0) (x1,y0) (x0,y1)
+// The four texels of W lanes, in twos of floats from the texture's first, and their weights: (x0,y0) (x1,y0) (x0,y1)
 // (x1,y1).
 template <int W>
 struct Taps {
@@ -29,17 +29,16 @@ struct Taps {
 
   TWINSHADE_INLINE bool same_for_all_lanes() const {
     const auto same = [](const U& tap) TWINSHADE_LAMBDA { return tap == U(tap.lane(0)); };
-    return all(same(at.x) & same(at.y) & same(at.z) & same(at.w));
+    return all(same(at.x)) && all(same(at.y) & same(at.z) & same(at.w));
   }
   TWINSHADE_INLINE void move_by(const U& offset) { at = at + offset; }
 };
-// In memory, in twos of floats, the largest scale that an x86 address has.
 template <int W>
-TWINSHADE_FUNCTION void store_in_twos(const vec<Simd<std::uint32_t, W>, 4>& at, std::uint32_t (*to)[W]) {
-  (at.x + at.x).store(to[0]);
-  (at.y + at.y).store(to[1]);
-  (at.z + at.z).store(to[2]);
-  (at.w + at.w).store(to[3]);
+TWINSHADE_FUNCTION void store_places(const vec<Simd<std::uint32_t, W>, 4>& at, std::uint32_t (*to)[W]) {
+  at.x.store(to[0]);
+  at.y.store(to[1]);
+  at.z.store(to[2]);
+  at.w.store(to[3]);
 }
 
 // Where lanes are taken one by one.
@@ -47,7 +46,7 @@ template <int W>
 struct TapIndices {
   alignas(64) std::uint32_t at[4][W];
   TWINSHADE_INLINE explicit TapIndices(const Taps<W>& taps) {
-    store_in_twos(taps.at, at);
+    store_places(taps.at, at);
     __asm__("" : "+m"(at));  // really through memory: compilers would take registers apart lane by lane
   }
   TWINSHADE_INLINE const float* texel(const float* texels, int tap, int lane) const {
@@ -96,7 +95,7 @@ TWINSHADE_FUNCTION vec<Simd<float, W>, 4> filtered_texels(const float* texels, c
 template <int W>
 TWINSHADE_FUNCTION vec<Simd<float, W>, 4> filtered_once(const float* texels, const Taps<W>& taps, int first) {
   using F = Simd<float, W>;
-  const auto texel = [&](const auto& tap) TWINSHADE_LAMBDA { return texels + std::size_t{tap.lane(0)} * 4 + first; };
+  const auto texel = [&](const auto& tap) TWINSHADE_LAMBDA { return texels + std::size_t{tap.lane(0)} * 2 + first; };
   const float *const x = texel(taps.at.x), *const y = texel(taps.at.y), *const z = texel(taps.at.z),
                      *const w = texel(taps.at.w);
   const vec<F, 4>& weight = taps.weight;
@@ -176,7 +175,7 @@ struct TapTable {
 
  private:
   TWINSHADE_INLINE void put(const Taps<W>& taps, int first) {
-    store_in_twos(taps.at, at + first);
+    store_places(taps.at, at + first);
     taps.weight.x.store(weight[first]);
     taps.weight.y.store(weight[first + 1]);
     taps.weight.z.store(weight[first + 2]);

@@ -8,9 +8,10 @@ inline namespace TWINSHADE_ISA_NAMESPACE {
 
 namespace registers {
 
-TWINSHADE_INLINE Float4 load_texel(const float* texels, std::uint32_t index) {
+// at: in twos of floats.
+TWINSHADE_INLINE Float4 load_texel(const float* texels, std::uint32_t at) {
   Float4 r;
-  std::memcpy(&r, texels + std::size_t{index} * 4, sizeof r);
+  std::memcpy(&r, texels + std::size_t{at} * 2, sizeof r);
   return r;
 }
 
@@ -82,7 +83,7 @@ TWINSHADE_INLINE vec<Simd<float, W>, 4> transposed_texels(Load load) {
 
 }  // namespace detail
 
-// Texel texels[4 * index ...] of each lane; indices in range.
+// Texel texels[2 * index ...] of each lane; indices in range.
 template <class Real, int W>
 TWINSHADE_INLINE vec<Simd<float, W>, 4> load_texels(const float* texels, const Simd<std::uint32_t, W>& index) {
   static_assert(std::same_as<Real, float>);
@@ -94,7 +95,7 @@ template <class Real, int W>
 TWINSHADE_INLINE vec<Plain<Real, W>, 4> load_texels(const float* texels, const Plain<std::uint32_t, W>& index) {
   vec<Plain<Real, W>, 4> rgba;
   for (int i = 0; i < W; ++i) {
-    const float* const texel = texels + std::size_t{index.e[i]} * 4;
+    const float* const texel = texels + std::size_t{index.e[i]} * 2;
     rgba.x.e[i] = texel[0];
     rgba.y.e[i] = texel[1];
     rgba.z.e[i] = texel[2];

@@ -11,43 +11,105 @@ inline namespace TWINSHADE_ISA_NAMESPACE {
 // How far ahead of the invocations that are shaded: some hundred nanoseconds.
 inline constexpr std::uint32_t kInvocationsAhead = 16;
 
-// Of the invocations first .. first + N::width - 1.
+// For the invocations of one call, from the first on. Addresses are found for many invocations at a time, since what is
+// the same for all of them takes longer than what is not; texels are asked for by and by.
 template <class N>
-TWINSHADE_APART void ask_for_texels(const ShaderData& data, const ShadeCall& call, std::uint32_t first) {
+class TexelPrefetch {
+ public:
+  TWINSHADE_INLINE TexelPrefetch(const ShaderData& data, const ShadeCall& call)
+      : data_(data),
+        call_(call),
+        count_(call.ahead_count < kMost ? call.ahead_count : kMost),
+        end_(count_ > 0 ? call.count : 0) {}
+
+  // Those of all invocations before `end` that were not asked for yet.
+  TWINSHADE_INLINE void ask_until(std::uint32_t end) {
+    while (asked_ < end && asked_ < end_) ask();
+  }
+
+ private:
   using F = typename N::F;
   using I = typename N::I;
   using U = typename N::U;
-  for (std::uint32_t k = 0; k < call.ahead_count; ++k) {
-    const TexelsAhead& ahead = call.ahead[k];
-    const TextureView& view = data.textures[ahead.texture];
-    const auto component = [&](std::uint32_t c) TWINSHADE_LAMBDA {
-      return F::load(static_cast<const float*>(call.inputs) + std::size_t{c} * call.stride + first);
-    };
-    const auto x = detail::linear_taps(component(ahead.coordinates), view.width, Wrap::repeat);
-    const auto y = detail::linear_taps(component(ahead.coordinates + 1), view.height, Wrap::repeat);
-    U slice(0u);
-    if (ahead.layer >= 0) {
-      const I layer = component(static_cast<std::uint32_t>(ahead.layer)).template as<std::int32_t>();
-      slice =
-          detail::clamp_to_size(layer, view.layers).template to<std::uint32_t>() * detail::pitch<U>(view.layer_pitch);
-    }
-    // In twos of floats, the largest scale of an x86 address.
-    const U texel = slice + detail::texel_index(view, x.first, y.first);
-    alignas(64) std::uint32_t at[N::width];
-    (texel + texel).store(at);
-    // Really through memory: compilers would take registers apart lane by lane. Volatile: g++ sees no effect in
-    // prefetches and leaves out calls of functions that have nothing else.
-    __asm__ volatile("" : "+m"(at));
-    // The two texels of a row, which lie in one cache line or two, and those of the row above; where that is the
-    // texture's first row again, or the texel to the right is its row's first, others are asked for.
-    const auto texels = reinterpret_cast<std::uintptr_t>(view.texels);
-    const std::uintptr_t right = texels + 2 * static_cast<std::uintptr_t>(view.texel_pitch) * sizeof(float) - 1;
-    const std::uintptr_t above = static_cast<std::uintptr_t>(view.row_pitch) * sizeof(float);
-    for (int lane = 0; lane < N::width; ++lane)
-      for (const std::uintptr_t from : {texels, right, texels + above, right + above})
-        __builtin_prefetch(reinterpret_cast<const void*>(from + std::uintptr_t{at[lane]} * 8));
+  static constexpr std::uint32_t kMost = 8, kFound = 64;
+
+  // Of the texel at 0: it and its neighbour to the right, which lie in one cache line or two, and those of the row
+  // above. Where the row above is the texture's first again, or the neighbour its row's first, others are asked for.
+  struct Lines {
+    std::uintptr_t texel, right, above, above_right;
+  };
+
+  TWINSHADE_APART void ask() {
+    const std::uint32_t first = asked_ % kFound;
+    if (first == 0) find();
+    const std::uint32_t* at = at_[0] + first;
+    for (const Lines *of = lines_, *end = lines_ + count_; of != end; ++of, at += kFound)
+      for (int lane = 0; lane < N::width; ++lane)
+        for (const std::uintptr_t line : {of->texel, of->right, of->above, of->above_right})
+          __builtin_prefetch(reinterpret_cast<const void*>(line + at[lane]));
+    asked_ += N::width;
   }
-}
+
+  struct Axis {
+    F extent;
+    I last;
+    bool power_of_two;
+    TWINSHADE_INLINE explicit Axis(std::int32_t size)
+        : extent(static_cast<float>(size)), last(size - 1), power_of_two((size & (size - 1)) == 0) {}
+    // As linear_taps has it for coordinates that are numbers within int's range: at the others' addresses nothing is
+    // read.
+    TWINSHADE_INLINE U first_tap(const F& s) const {
+      const F u = lanes_floor((power_of_two ? s : s - lanes_floor(s)) * extent - F(0.5f));
+      const I index = F::template each<I>(
+          [](auto x) TWINSHADE_LAMBDA { return __builtin_convertvector(x, Register<std::int32_t, sizeof x / 4>); }, u);
+      return (power_of_two ? index & last : select(index < I(0), last, index)).template to<std::uint32_t>();
+    }
+  };
+
+  TWINSHADE_APART void find() {
+    const std::uint32_t count = end_ - asked_ < kFound ? end_ - asked_ : kFound;
+    for (std::uint32_t k = 0; k < count_; ++k) {
+      const TexelsAhead& ahead = call_.ahead[k];
+      const TextureView& view = data_.textures[ahead.texture];
+      const U row = bytes(view.row_pitch), column = bytes(view.texel_pitch), slice = bytes(view.layer_pitch);
+      const auto texels = reinterpret_cast<std::uintptr_t>(view.texels);
+      const std::uintptr_t right = static_cast<std::uintptr_t>(view.texel_pitch) * 2 * sizeof(float) - 1;
+      const std::uintptr_t above = static_cast<std::uintptr_t>(view.row_pitch) * sizeof(float);
+      lines_[k] = {texels, texels + right, texels + above, texels + right + above};
+
+      const Axis across(view.width), up(view.height);
+      const float* const x = component(ahead.coordinates);
+      const float* const y = component(ahead.coordinates + 1);
+      const float* const layer = ahead.layer < 0 ? nullptr : component(static_cast<std::uint32_t>(ahead.layer));
+      for (std::uint32_t i = 0; i < count; i += N::width) {
+        U at = across.first_tap(F::load(x + i)) * column + up.first_tap(F::load(y + i)) * row;
+        if (layer) at = at + F::load(layer + i).template as<std::uint32_t>() * slice;
+        at.store(at_[k] + i);
+      }
+    }
+  }
+
+  TWINSHADE_INLINE const float* component(std::uint32_t c) const {
+    return static_cast<const float*>(call_.inputs) + std::size_t{c} * call_.stride + asked_;
+  }
+  static TWINSHADE_INLINE U bytes(std::ptrdiff_t floats) {
+    return U(static_cast<std::uint32_t>(floats) * std::uint32_t{sizeof(float)});
+  }
+
+  const ShaderData& data_;
+  const ShadeCall& call_;
+  const std::uint32_t count_;  // hints that are taken
+  const std::uint32_t end_;
+  std::uint32_t asked_ = 0;
+  Lines lines_[kMost];
+  alignas(64) std::uint32_t at_[kMost][kFound];  // in bytes from the lines, of invocations asked_ / kFound * kFound on
+};
+
+// Where invocations are not lanes.
+struct NoTexelPrefetch {
+  NoTexelPrefetch(const ShaderData&, const ShadeCall&) {}
+  void ask_until(std::uint32_t) const {}
+};
 
 }  // namespace TWINSHADE_ISA_NAMESPACE
 }  // namespace twinshade

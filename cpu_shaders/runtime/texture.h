@@ -33,12 +33,13 @@ TWINSHADE_INLINE I clamp_to_size(const I& i, std::int32_t size) {
   return lanes_max(lanes_min(i, I(size - 1)), I(0));
 }
 
+// In twos of floats, as all places of texels: the largest scale of an x86 address.
 template <class U>
 TWINSHADE_INLINE U pitch(std::ptrdiff_t floats) {
-  return U(static_cast<std::uint32_t>(floats / 4));
+  return U(static_cast<std::uint32_t>(static_cast<std::size_t>(floats) / 2));
 }
 
-// Where a texel of layer 0 lies, in fours of floats; these fit 32 bits (64 GiB). Coordinates in range.
+// Where a texel of layer 0 lies; fits 32 bits (32 GiB). Coordinates in range.
 template <Lane I>
 TWINSHADE_INLINE auto texel_index(const TextureView& view, const I& x, const I& y) {
   using U = typename I::template with<std::uint32_t>;

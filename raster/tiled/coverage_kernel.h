@@ -73,19 +73,19 @@ TWINSHADE_INLINE void for_each_covered_block(const RasterTriangle& t, const Cove
         first.store(block_edge[e]);
         nearest = nearest | (first + block_reach[e]);
       }
+      const std::uint32_t column = (x - tile.x) / 4, row = (y - tile.y) / 4;
       const bool at_border = x + kWindow > tile.frame_width || y + kWindow > tile.frame_height;
 
       for (std::uint32_t blocks = (nearest >= I(0)).bits() & in_box; blocks != 0; blocks &= blocks - 1) {
         const std::uint32_t k = std::uint32_t(__builtin_ctz(blocks));
         I inmost(0);
         for (int e = 0; e < 3; ++e) inmost = inmost | (I(block_edge[e][k]) + pixel_step[e]);
-        BlockMask inside = inmost >= I(0);
-        const std::uint32_t frame_x = x + std::uint32_t(kBlockX[k]), frame_y = y + std::uint32_t(kBlockY[k]);
+        BlockMask outside = inmost < I(0);
         if (at_border)
-          inside = inside & (I::load(kPixelX) < I(std::int32_t(tile.frame_width - frame_x))) &
-                   (I::load(kPixelY) < I(std::int32_t(tile.frame_height - frame_y)));
-        if (!any(inside)) continue;
-        use((frame_x - tile.x) / 4, (frame_y - tile.y) / 4, inside);
+          outside = outside | (I::load(kPixelX) >= I(std::int32_t(tile.frame_width - x - k % 4 * 4))) |
+                    (I::load(kPixelY) >= I(std::int32_t(tile.frame_height - y - k / 4 * 4)));
+        if (all(outside)) continue;
+        use(column + k % 4, row + k / 4, !outside);
       }
     }
 }
@@ -196,8 +196,8 @@ void cover_all(const CoverTile& tile) {
     cover_with_depth<Depth>(tile, places, which, [&](std::uint32_t pixel, BlockMask inside, F depth) TWINSHADE_LAMBDA {
       const F old = F::load(tile.depth + pixel);
       const BlockMask nearer = inside & (depth < old);
-      select(nearer, depth, old).store(tile.depth + pixel);
-      select(nearer, local, U::load(tile.visible + pixel)).store(tile.visible + pixel);
+      blend(nearer, depth, old).store(tile.depth + pixel);
+      blend(nearer, local, U::load(tile.visible + pixel)).store(tile.visible + pixel);
     });
   }
 }

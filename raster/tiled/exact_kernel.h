@@ -15,7 +15,7 @@ struct ExactPoint {
   TWINSHADE_INLINE F depth() const {
     using R = typename F::element;
     const F d = (z / w) * F(R(0.5)) + F(R(0.5));
-    return select(d > F(R(0)), select(d < F(R(1)), d, F(R(1))), F(R(0)));
+    return select(d > F(R(0)), lanes_min(d, F(R(1))), F(R(0)));
   }
   TWINSHADE_INLINE F reciprocal_w() const { return sum / w; }
 };

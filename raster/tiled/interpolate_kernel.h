@@ -46,8 +46,10 @@ class Interpolator {
       const LocalPrimitive& primitive = call_.primitives[call_.runs[r].local];
       if (call_.native)
         native(primitive, begin, end);
+      else if (frag_coord_ || call_.front_facing)
+        exact<true>(primitive, begin, end);
       else
-        exact(primitive, begin, end);
+        exact<false>(primitive, begin, end);
     }
     if (frag_coord_)
       for (std::uint32_t i = 0; i < call_.count; ++i) {
@@ -74,36 +76,41 @@ class Interpolator {
   }
 
   // By few enough invocations for their weights to stay in the first cache: points first, then input by input, so that
-  // a vertex' value is broadcast once.
+  // a vertex' value is broadcast once. built_ins: of gl_FragCoord and gl_FrontFacing some are asked for.
+  template <bool built_ins>
   TWINSHADE_INLINE void exact(const LocalPrimitive& primitive, std::uint32_t begin, std::uint32_t end) {
     const VertexData& vertices = *call_.vertices;
     const ExactTriangle<F> triangle(vertices, primitive.primitive);
+    const F scale_x(R(vertices.ndc_scale_x)), scale_y(R(vertices.ndc_scale_y));
+    const std::uint32_t component_count = vertices.input_components;
     const std::uint32_t* index = vertices.indices + std::size_t(primitive.primitive) * 3;
     const float* row[3];
-    for (int v = 0; v < 3; ++v) row[v] = vertices.inputs + std::size_t(index[v]) * vertices.input_components;
+    for (int v = 0; v < 3; ++v) row[v] = vertices.inputs + std::size_t(index[v]) * component_count;
     for (; begin < end; begin += kPoints) {
       const std::uint32_t count = end - begin < kPoints ? end - begin : kPoints;
       alignas(64) R weights[3][kPoints];
-      for (std::uint32_t k = 0; k < count; k += kWidth) exact_points(triangle, begin + k, weights, k);
-      for (std::uint32_t c = 0; c < vertices.input_components; ++c) exact_input(c, row, begin, count, weights);
+      for (std::uint32_t k = 0; k < count; k += kWidth)
+        exact_points<built_ins>(triangle, scale_x, scale_y, begin + k, weights, k);
+      for (std::uint32_t c = 0; c < component_count; ++c) exact_input(c, row, begin, count, weights);
     }
   }
 
-  TWINSHADE_INLINE void exact_points(const ExactTriangle<F>& triangle, std::uint32_t i, R (&weights)[3][kPoints],
-                                     std::uint32_t k) {
-    const VertexData& vertices = *call_.vertices;
+  template <bool built_ins>
+  TWINSHADE_INLINE void exact_points(const ExactTriangle<F>& triangle, const F& scale_x, const F& scale_y,
+                                     std::uint32_t i, R (&weights)[3][kPoints], std::uint32_t k) {
     const F x = F::load(center_x_ + i), y = F::load(center_y_ + i);
-    const ExactPoint<F> p =
-        triangle.at(x * F(R(vertices.ndc_scale_x)) - F(R(1)), y * F(R(vertices.ndc_scale_y)) - F(R(1)));
+    const ExactPoint<F> p = triangle.at(x * scale_x - F(R(1)), y * scale_y - F(R(1)));
     const F r = F(R(1)) / p.sum;
     (p.e0 * r).store(weights[0] + k);
     (p.e1 * r).store(weights[1] + k);
     (p.e2 * r).store(weights[2] + k);
-    if (frag_coord_) {
-      p.depth().store(frag_coord_ + 2 * std::size_t(call_.stride) + i);
-      p.reciprocal_w().store(frag_coord_ + 3 * std::size_t(call_.stride) + i);
+    if constexpr (built_ins) {
+      if (frag_coord_) {
+        p.depth().store(frag_coord_ + 2 * std::size_t(call_.stride) + i);
+        p.reciprocal_w().store(frag_coord_ + 3 * std::size_t(call_.stride) + i);
+      }
+      if (call_.front_facing) select(p.w > F(R(0)), U(~0u), U(0u)).store(call_.front_facing + i);
     }
-    if (call_.front_facing) select(p.w > F(R(0)), U(~0u), U(0u)).store(call_.front_facing + i);
   }
 
   TWINSHADE_INLINE void exact_input(std::uint32_t component, const float* const (&row)[3], std::uint32_t begin,
@@ -111,8 +118,15 @@ class Interpolator {
     R* const to = inputs_ + std::size_t(component) * call_.stride + begin;
     if (call_.interpolation[component] == kSmooth) {
       const F a0 = F(R(row[0][component])), a1 = F(R(row[1][component])), a2 = F(R(row[2][component]));
-      for (std::uint32_t k = 0; k < count; k += kWidth)
+      const auto points = [&](std::uint32_t k) TWINSHADE_LAMBDA {
         ((a0 * F::load(weights[0] + k) + a1 * F::load(weights[1] + k)) + a2 * F::load(weights[2] + k)).store(to + k);
+      };
+      std::uint32_t k = 0;
+      for (; k + kWidth < count; k += 2 * kWidth) {
+        points(k);
+        points(k + kWidth);
+      }
+      if (k < count) points(k);
     } else {
       const F value(flat_value<R>(row[2][component], call_.scalars[component]));
       for (std::uint32_t k = 0; k < count; k += kWidth) value.store(to + k);

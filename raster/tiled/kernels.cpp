@@ -5,6 +5,7 @@
 #include "raster/tiled/interpolate_kernel.h"
 #include "raster/tiled/kernel_list.h"
 #include "raster/tiled/store_kernel.h"
+#include "raster/tiled/store_superblock_kernel.h"
 #include "raster/tiled/visible_kernel.h"
 
 namespace twinshade::tiled {
@@ -13,7 +14,7 @@ namespace {
 template <int W>
 constexpr Kernels lanes_kernels(Number number) {
   return {Isa::TWINSHADE_ISA,          number,      cover, cover_one, collect_visible, add_covered,
-          interpolate<Simd<float, W>>, store_colors};
+          interpolate<Simd<float, W>>, store_colors, store_superblock};
 }
 
 constexpr Kernels kList[] = {
@@ -28,11 +29,11 @@ constexpr Kernels kList[] = {
 #endif
 #if TWINSHADE_NUMBERS & 8
     {Isa::TWINSHADE_ISA, Number::scalar, cover, cover_one, collect_visible, add_covered, interpolate<Simd<float, 4>>,
-     store_colors},
+     store_colors, store_superblock},
 #endif
 #if TWINSHADE_NUMBERS & 16
     {Isa::TWINSHADE_ISA, Number::float64, cover, cover_one, collect_visible, add_covered, interpolate<Plain<double, 4>>,
-     store_colors},
+     store_colors, store_superblock},
 #endif
 };
 

@@ -116,6 +116,20 @@ struct StoreColors {
   float* color;  // of the tile: RGBA of each pixel
 };
 
+// A superblock of a tile, to the frame. Pointers are to its first pixel there; of `to`, colours begin 32 bytes and
+// depths and ids 16.
+struct StoreSuperblock {
+  const float* color;  // RGBA
+  const float* depth;
+  const std::uint32_t* primitive_id;
+  float* to_color;
+  float* to_depth;
+  std::uint32_t* to_primitive_id;  // null: neither ids nor coverage
+  std::uint8_t* to_coverage;       // 1 where the id is another than no_primitive, else 0
+  std::uint32_t no_primitive;
+  std::size_t width;  // of the frame
+};
+
 struct Kernels {
   Isa isa;
   Number number;
@@ -130,6 +144,8 @@ struct Kernels {
   std::size_t (*add_covered)(AddCovered&);
   void (*interpolate)(const Interpolate&);
   void (*store_colors)(const StoreColors&);
+  // Stores go past the caches: a fence must follow the last one.
+  void (*store_superblock)(const StoreSuperblock&);
 };
 
 // Coverage and depth are those of float whatever the number; float64 differs in `interpolate` only.

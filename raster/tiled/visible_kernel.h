@@ -43,14 +43,13 @@ inline std::uint32_t collect_visible(const CollectVisible& call) {
   return call.primitive_id ? collect_visible_if<true>(call) : collect_visible_if<false>(call);
 }
 
-// [m]: the bits that are set in m, the lowest first, and how many.
+// [m]: the bits that are set in m, the lowest first.
 struct SetBits {
-  alignas(16) std::uint32_t of[16][4];
-  std::uint32_t count[16];
-  constexpr SetBits() : of{}, count{} {
-    for (std::uint32_t m = 0; m < 16; ++m)
-      for (std::uint32_t i = 0; i < 4; ++i)
-        if (m >> i & 1) of[m][count[m]++] = i;
+  alignas(64) std::uint8_t of[256][8];
+  constexpr SetBits() : of{} {
+    for (std::uint32_t m = 0; m < 256; ++m)
+      for (std::uint32_t i = 0, count = 0; i < 8; ++i)
+        if (m >> i & 1) of[m][count++] = std::uint8_t(i);
   }
 };
 inline constexpr SetBits kSetBits;
@@ -63,24 +62,30 @@ TWINSHADE_INLINE std::uint32_t write_set_bits(std::uint32_t first, std::uint32_t
   _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), numbers));
   return static_cast<std::uint32_t>(__builtin_popcount(bits));
 #else
-  using U = Simd<std::uint32_t, 4>;
-  std::uint32_t count = 0;
-  for (std::uint32_t quad = 0; quad < 4; ++quad) {
-    const std::uint32_t m = bits >> (4 * quad) & 15u;
-    (U::load(kSetBits.of[m]) + U(first + 4 * quad)).store(to + count);
-    count += kSetBits.count[m];
-  }
-  return count;
+  const std::uint32_t low = bits & 0xffu, count = static_cast<std::uint32_t>(__builtin_popcount(low));
+  const auto write = [](std::uint32_t from, std::uint32_t m, std::uint32_t* numbers) TWINSHADE_LAMBDA {
+    std::uint8_t set[8];
+    std::memcpy(set, kSetBits.of[m], sizeof set);
+    for (int i = 0; i < 8; ++i) numbers[i] = from + set[i];
+  };
+  write(first, low, to);
+  write(first + 8, bits >> 8, to + count);
+  return count + static_cast<std::uint32_t>(__builtin_popcount(bits >> 8));
 #endif
 }
 
 inline std::size_t add_covered(AddCovered& call) {
+  const VisibleBlock* const blocks = call.blocks;
+  std::uint32_t* const pixels = call.pixels;
+  ShadeRun* const runs = call.runs;
+  const std::size_t block_count = call.block_count;
+  const std::uint32_t enough = call.enough;
   std::uint32_t count = call.count, run_count = call.run_count;
   std::size_t taken = 0;
-  for (; taken < call.block_count && count < call.enough; ++taken) {
-    const VisibleBlock& block = call.blocks[taken];
-    if (run_count == 0 || call.runs[run_count - 1].local != block.local) call.runs[run_count++] = {block.local, count};
-    count += write_set_bits(16u * block.block, block.coverage, call.pixels + count);
+  for (; taken < block_count && count < enough; ++taken) {
+    const VisibleBlock block = blocks[taken];
+    if (run_count == 0 || runs[run_count - 1].local != block.local) runs[run_count++] = {block.local, count};
+    count += write_set_bits(16u * block.block, block.coverage, pixels + count);
   }
   call.count = count;
   call.run_count = run_count;

@@ -13,13 +13,15 @@ namespace served {
 
 namespace detail {
 
+// Values put together of others are not const in what follows: g++ would keep them in memory, since they are stored to.
+
 // The taps that the struct ExactTaps of bilinear.glsl means (texel = x0 y0 x1 y1), in layer 0.
 template <class N, class ExactTaps>
 TWINSHADE_FUNCTION Taps<N::width> locate(const TextureView& view, const ExactTaps& taps) {
   using twinshade::detail::clamp_to_size;
   using twinshade::detail::pitch;
   using U = typename N::U;
-  const vec<typename N::I, 4> texel(taps.texel);
+  vec<typename N::I, 4> texel(taps.texel);
   const U row = pitch<U>(view.row_pitch), column = pitch<U>(view.texel_pitch);
   const U x0 = clamp_to_size(texel.x, view.width).template to<std::uint32_t>() * column;
   const U x1 = clamp_to_size(texel.z, view.width).template to<std::uint32_t>() * column;

@@ -105,7 +105,7 @@ TWINSHADE_FUNCTION vec<typename N::F, 3> sphere_map_color(const TextureView& vie
                                                       clamp_to_size(t.y, view.height),
                                                       clamp_to_size(t.z * I(maps) + I(map), view.layers));
   };
-  const vec<typename N::F, 4> weight(taps.weight);
+  vec<typename N::F, 4> weight(taps.weight);
   return rgb((texel(vec<I, 3>(taps.texel_00)) * weight.x + texel(vec<I, 3>(taps.texel_10)) * weight.y) +
              (texel(vec<I, 3>(taps.texel_01)) * weight.z + texel(vec<I, 3>(taps.texel_11)) * weight.w));
 }
@@ -183,8 +183,8 @@ TWINSHADE_FUNCTION void sphere_map_fetch_colors(Sampler2DArray<Real> array, cons
     const auto first_line = [&](const vec<I, 3>& texel) TWINSHADE_LAMBDA { return texel.z * lines; };
     const auto inside = [&](const vec<I, 3>& texel)
                             TWINSHADE_LAMBDA { return first_line(texel) >= I(0) & first_line(texel) <= most; };
-    const vec<I, 3> texels[4] = {vec<I, 3>(taps.texel_00), vec<I, 3>(taps.texel_10), vec<I, 3>(taps.texel_01),
-                                 vec<I, 3>(taps.texel_11)};
+    vec<I, 3> texels[4] = {vec<I, 3>(taps.texel_00), vec<I, 3>(taps.texel_10), vec<I, 3>(taps.texel_01),
+                           vec<I, 3>(taps.texel_11)};
     if (maps.value() % 5 == 0 && maps.value() >= 0 &&
         all(inside(texels[0]) & inside(texels[1]) & inside(texels[2]) & inside(texels[3]))) {
       const auto at = [&](int tap) TWINSHADE_LAMBDA {
@@ -193,7 +193,7 @@ TWINSHADE_FUNCTION void sphere_map_fetch_colors(Sampler2DArray<Real> array, cons
                                               clamp_to_size(texels[tap].y, view.height)) +
                first_line(texels[tap]).template to<std::uint32_t>() * U(8u);
       };
-      const detail::Taps<N::width> where{{at(0), at(1), at(2), at(3)}, vec<typename N::F, 4>(taps.weight)};
+      detail::Taps<N::width> where{{at(0), at(1), at(2), at(3)}, vec<typename N::F, 4>(taps.weight)};
       return detail::filter_colors<count>(view.texels, detail::TapTable<N::width, 4>(where), colors);
     }
   }

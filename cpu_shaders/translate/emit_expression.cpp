@@ -86,7 +86,7 @@ void FunctionEmitter::define(const Instruction& i, Expression e) {
 
 void FunctionEmitter::materialise(Pending& pending) {
   const std::string name = names_.declare("t" + std::to_string(++temporary_count_));
-  out_.line("const " + type_of(pending.id) + " " + name + " = " + pending.expression.text + ";");
+  out_.line(constant(module_.value_types.at(pending.id)) + type_of(pending.id) + " " + name + " = " + pending.expression.text + ";");
   Expression e;
   e.text = name;
   e.precedence = 1;
@@ -300,8 +300,8 @@ void FunctionEmitter::call(const Instruction& i) {
       const Parameter& p = info.function->parameters[k];
       const std::string name = names_.declare("t" + std::to_string(++temporary_count_));
       position(i.file, i.line);
-      out_.line("const " + types_.name(info.parameter_type(module_, k), callee.is_varying(p.id)) + " " + name + " = " + a.text +
-                ";");
+      const Id type = info.parameter_type(module_, k);
+      out_.line(constant(type) + types_.name(type, callee.is_varying(p.id)) + " " + name + " = " + a.text + ";");
       a = Expression{name, 1, {}};
     }
     e.reads.insert(a.reads.begin(), a.reads.end());

@@ -77,6 +77,12 @@ class FunctionEmitter {
   void no_float64(const Instruction& i, const std::string& what);
   [[noreturn]] void refuse(const Instruction& i, const std::string& what, const std::string& remedy) const;
   bool is_real(Id value) const { return module_.scalar_kind(module_.value_types.at(value)) == Kind::real; }
+  // "const " before a declaration of this type, but not of what is put together of others: g++ keeps a constant of that
+  // kind in memory instead of registers, because it is stored to.
+  std::string constant(Id type) const {
+    const Kind kind = module_.type(type).kind;
+    return kind == Kind::matrix || kind == Kind::array || kind == Kind::structure ? "" : "const ";
+  }
   std::string type_of(Id value) { return types_.name(module_.value_types.at(value), at_.is_varying(value)); }
 
   // --- emit_place.cpp

@@ -224,15 +224,15 @@ void FunctionEmitter::store(const Instruction& i) {
     const Expression v = value(i.operands[1]);
     settle_effects();
     position(i.file, i.line);
-    const std::string type = types_.name(module_.variables.at(root).type, at_.is_varying(root));
+    const Id type = module_.variables.at(root).type;
     const std::string name = declare(root, local_name(root));
-    const std::string text = type + " " + name + " = " + v.text;
+    const std::string text = types_.name(type, at_.is_varying(root)) + " " + name + " = " + v.text;
     for (const auto& [loop_statement, init] : regions_.loop_init) {
       if (init != &i) continue;
       for_init_ = text;
       return;
     }
-    out_.line((regions_.constant.count(root) ? "const " : "") + text + ";");
+    out_.line((regions_.constant.count(root) ? constant(type) : "") + text + ";");
     return;
   }
   const Place p = place(i.operands[0]);
@@ -266,7 +266,7 @@ void FunctionEmitter::store_to(const Instruction& i, const Place& p, const std::
   std::string whole = stored;
   if (varying + 1 != p.steps.end()) {
     whole = names_.declare("t" + std::to_string(++temporary_count_));
-    out_.line("const " + types_.name(p.type, true) + " " + whole + " = " + stored + ";");
+    out_.line(constant(p.type) + types_.name(p.type, true) + " " + whole + " = " + stored + ";");
   }
   out_.line(nested_store(p.base.text, p, 0, mask_or_all(), partial, whole, 0));
 }

@@ -80,12 +80,12 @@ TWINSHADE_INLINE void for_each_covered_block(const RasterTriangle& t, const Cove
         const std::uint32_t k = std::uint32_t(__builtin_ctz(blocks));
         I inmost(0);
         for (int e = 0; e < 3; ++e) inmost = inmost | (I(block_edge[e][k]) + pixel_step[e]);
-        BlockMask outside = inmost < I(0);
+        BlockMask uncovered = inmost < I(0);
         if (at_border)
-          outside = outside | (I::load(kPixelX) >= I(std::int32_t(tile.frame_width - x - k % 4 * 4))) |
-                    (I::load(kPixelY) >= I(std::int32_t(tile.frame_height - y - k / 4 * 4)));
-        if (all(outside)) continue;
-        use(column + k % 4, row + k / 4, !outside);
+          uncovered = uncovered | (I::load(kPixelX) >= I(std::int32_t(tile.frame_width - x - k % 4 * 4))) |
+                      (I::load(kPixelY) >= I(std::int32_t(tile.frame_height - y - k / 4 * 4)));
+        if (all(uncovered)) continue;
+        use(column + k % 4, row + k / 4, !uncovered);
       }
     }
 }

@@ -13,7 +13,7 @@ TWINSHADE_INLINE void store_colors_if(const StoreColors& call) {
   using U4 = Register<std::uint32_t, 4>;
   static constexpr float kZeros[8] = {};
   const float* channels[4];
-  std::uint32_t step[4];
+  std::size_t step[4];
   for (int c = 0; c < 4; ++c) {
     channels[c] = call.channels[c] ? call.channels[c] : kZeros;
     step[c] = call.channels[c] ? 1 : 0;
@@ -21,7 +21,7 @@ TWINSHADE_INLINE void store_colors_if(const StoreColors& call) {
   const std::uint32_t* const pixels = call.pixels;
   const std::uint32_t* const stored = call.stored;
   float* const color = call.color;
-  const auto store = [&](std::uint32_t i, const Float4& rgba) TWINSHADE_LAMBDA {
+  const auto store = [&](std::size_t i, const Float4& rgba) TWINSHADE_LAMBDA {
     float* const to = color + 4 * std::size_t{pixels[i]};
     if constexpr (all) {
       std::memcpy(to, &rgba, sizeof rgba);
@@ -34,24 +34,24 @@ TWINSHADE_INLINE void store_colors_if(const StoreColors& call) {
       std::memcpy(to, &after, sizeof after);
     }
   };
-  const std::uint32_t count = call.count;
-  std::uint32_t begin = 0;
+  const std::size_t count = call.count;
+  std::size_t begin = 0;
   if constexpr (Simd<float, 8>::whole)
     for (; begin + 8 <= count; begin += 8) {
       Float8 rgba[4];  // [j]: of invocations j and 4 + j
       for (int c = 0; c < 4; ++c) rgba[c] = registers::load<8>(channels[c] + begin * step[c]);
       registers::transpose_groups(rgba);
-      for (std::uint32_t j = 0; j < 4; ++j) store(begin + j, __builtin_shufflevector(rgba[j], rgba[j], 0, 1, 2, 3));
-      for (std::uint32_t j = 0; j < 4; ++j) store(begin + 4 + j, __builtin_shufflevector(rgba[j], rgba[j], 4, 5, 6, 7));
+      for (std::size_t j = 0; j < 4; ++j) store(begin + j, __builtin_shufflevector(rgba[j], rgba[j], 0, 1, 2, 3));
+      for (std::size_t j = 0; j < 4; ++j) store(begin + 4 + j, __builtin_shufflevector(rgba[j], rgba[j], 4, 5, 6, 7));
     }
   for (; begin < count; begin += 4) {
     Float4 rgba[4];
     for (int c = 0; c < 4; ++c) rgba[c] = registers::load<4>(channels[c] + begin * step[c]);
     registers::transpose_groups(rgba);
     if (begin + 4 <= count)
-      for (std::uint32_t i = 0; i < 4; ++i) store(begin + i, rgba[i]);
+      for (std::size_t i = 0; i < 4; ++i) store(begin + i, rgba[i]);
     else
-      for (std::uint32_t i = 0; begin + i < count; ++i) store(begin + i, rgba[i]);
+      for (std::size_t i = 0; begin + i < count; ++i) store(begin + i, rgba[i]);
   }
 }
 

@@ -138,12 +138,15 @@ TEST_CASE_TEMPLATE("texels can be asked for at any coordinates", N, Lanes<4>, La
         Filter::linear, Wrap::repeat};
     const TexelsAhead ahead[] = {{0, 0, 2}, {0, 0, -1}};
     ShadeCall call{};
+    call.count = 16;
     call.stride = kStride;
     call.inputs = inputs.data;
     call.ahead = ahead;
     call.ahead_count = 2;
-    for (std::uint32_t first = 0; first < 16; first += N::width)
-      ask_for_texels<N>({nullptr, &view, nullptr}, call, first);
+    const ShaderData data{nullptr, &view, nullptr};
+    TexelPrefetch<N> prefetch(data, call);
+    prefetch.ask_until(N::width);
+    prefetch.ask_until(100);
   }
 }
 

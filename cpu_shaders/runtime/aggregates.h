@@ -227,13 +227,6 @@ struct mat {
   requires(sizeof...(A) == columns && (std::convertible_to<A, column> && ...)) TWINSHADE_INLINE
       constexpr mat(const A&... parts)
       : c{column(parts)...} {}
-  template <Lane... A>
-  requires(sizeof...(A) == columns * rows && (std::convertible_to<A, T> && ...)) TWINSHADE_INLINE
-      constexpr mat(const A&... parts)
-      : c{} {
-    int at = 0;
-    ((c[at / rows].e[at % rows] = parts, ++at), ...);
-  }
   template <class G>
   requires(!std::same_as<G, T> && std::convertible_to<G, T>) TWINSHADE_INLINE
       constexpr mat(const mat<G, columns, rows>& m)

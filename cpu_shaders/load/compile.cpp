@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/cache.h"
+#include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
 #include "cpu_shaders/load/load.h"
@@ -42,22 +43,36 @@ ProgramResult link(const Compiler& compiler, const std::vector<std::string>& fla
   return run_program(command, kCompileTime, target);
 }
 
+// Symbol tables hold the source's name. One name in a folder for each: a text gives the same bytes whenever compiled.
+struct SourceFolder {
+  std::string path;
+  explicit SourceFolder(const std::string& target) : path(target + ".source") {
+    std::error_code code;
+    fs::create_directory(path, code);
+    if (code) throw UserError(path + ": cannot be created: " + code.message());
+  }
+  ~SourceFolder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  SourceFolder(const SourceFolder&) = delete;
+  SourceFolder& operator=(const SourceFolder&) = delete;
+};
+
 void build(const std::string& text, const Compiler& compiler, const CompileOptions& options,
            const std::string& target) {
-  // Symbol tables hold the source's name. One name in a folder for each: a text gives the same bytes whenever compiled.
-  const std::string folder = target + ".source", source = folder + "/shader.cpp", runtime = unpack_runtime();
+  const std::string runtime = unpack_runtime();
   std::vector<std::string> flags = flags_of(options);
   flags.insert(flags.end(), {"-I", runtime});
   const PreparedRuntime prepared = prepare_runtime(runtime, compiler, flags);
-  std::error_code ignored;
-  fs::create_directory(folder, ignored);  // write_file says what is wrong
+  const SourceFolder folder(target);
+  const std::string source = folder.path + "/shader.cpp";
   write_file(source, text);
   ProgramResult result = link(compiler, flags, {"-include", prepared.header, source, prepared.portable_math}, target);
   if (result.status != 0 && !result.timed_out) {  // the shader's fault, or the prepared runtime's?
     result = link(compiler, flags, {source, runtime + "/base/portable_math.cpp"}, target);
     if (result.status == 0) discard_prepared(prepared);
   }
-  fs::remove_all(folder, ignored);
   require_made(target, compiler, result, "the translated shader");
   seal(target);
 }

@@ -32,11 +32,12 @@ constexpr std::size_t kMostOutput = std::size_t{1} << 20;
 constexpr const char* kRun =
     "ulimit -t 300 2>/dev/null; ulimit -v 4194304 2>/dev/null; [ -z \"$1\" ] || export TMPDIR=\"$1\"; shift; "
     "exec \"$@\"";
-// $1: that folder, $2: how files half made begin. Compilers end at TERM, some a moment later, and remove what they
-// made; what ignores it is killed, and this shell with it.
+// $1: that folder, $2: how files and folders half made begin. Compilers end at TERM, some a moment later, and remove
+// what they made; what ignores it is killed, and this shell with it.
 constexpr const char* kWatch =
-    "PATH=/usr/bin:/bin; trap '' HUP INT TERM; read -r _; kill -TERM 0; sleep 0.2; rm -rf \"$1\"; [ -z \"$2\" ] || rm "
-    "-rf \"$2\"[.-]*; "
+    "PATH=/usr/bin:/bin; trap '' HUP INT TERM; read -r _; kill -TERM 0; sleep 0.2; rm -rf -- \"$1\"; [ -z \"$2\" ] || "
+    "rm "
+    "-rf -- \"$2\"[.-]*; "
     "kill -KILL 0";
 
 // A folder of its own, empty where there is no place for one: compilers find another, or say what they miss.

@@ -13,7 +13,8 @@ namespace served {
 
 namespace detail {
 
-// Values put together of others are not const in what follows: g++ would keep them in memory, since they are stored to.
+// The taps of fetches that are inlined are not const in what follows: g++ would keep them in memory, since they are
+// stored to.
 
 // The taps that the struct ExactTaps of bilinear.glsl means (texel = x0 y0 x1 y1), in layer 0.
 template <class N, class ExactTaps>

@@ -54,8 +54,8 @@ struct ShaderResource {
   LayerOrder layer_order = LayerOrder::apart;
   // Sampler: slot of another whose texels are read together with this one's, if their sizes are equal.
   std::int32_t beside = -1;
-  // Sampler that is read at coordinates which are an input: its first component, and that of the layer; -1: another way.
-  // With -1 for the layer alone it is layer 0. A hint (TexelsAhead).
+  // Sampler that is read at coordinates which are an input: its first component, and that of the layer; -1: another
+  // way. With -1 for the layer alone it is layer 0. A hint (TexelsAhead).
   std::int32_t coordinates = -1, layer = -1;
 };
 
@@ -120,7 +120,7 @@ struct ShadeCall {
   // Compute shaders only, whose count is a multiple of the lanes of their number type, and which use `live` and `kept`
   // alone of the above.
   const ComputeCall* compute = nullptr;
-  const TexelsAhead* ahead = nullptr;
+  const TexelsAhead* ahead = nullptr;  // the first eight are taken
   std::uint32_t ahead_count = 0;
 };
 

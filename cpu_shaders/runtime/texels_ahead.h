@@ -102,7 +102,8 @@ class TexelPrefetch {
   const std::uint32_t end_;
   std::uint32_t asked_ = 0;
   Lines lines_[kMost];
-  alignas(64) std::uint32_t at_[kMost][kFound];  // in bytes from the lines, of invocations asked_ / kFound * kFound on
+  // In bytes from the lines, of invocations asked_ / kFound * kFound on. Beyond 4 GiB others are asked for.
+  alignas(64) std::uint32_t at_[kMost][kFound];
 };
 
 // Where invocations are not lanes.

@@ -33,7 +33,7 @@ TWINSHADE_INLINE I clamp_to_size(const I& i, std::int32_t size) {
   return lanes_max(lanes_min(i, I(size - 1)), I(0));
 }
 
-// In twos of floats, as all places of texels: the largest scale of an x86 address.
+// In twos of floats, as places of texels are: the largest scale of an x86 address.
 template <class U>
 TWINSHADE_INLINE U pitch(std::ptrdiff_t floats) {
   return U(static_cast<std::uint32_t>(static_cast<std::size_t>(floats) / 2));

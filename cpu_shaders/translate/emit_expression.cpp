@@ -86,7 +86,8 @@ void FunctionEmitter::define(const Instruction& i, Expression e) {
 
 void FunctionEmitter::materialise(Pending& pending) {
   const std::string name = names_.declare("t" + std::to_string(++temporary_count_));
-  out_.line(constant(module_.value_types.at(pending.id)) + type_of(pending.id) + " " + name + " = " + pending.expression.text + ";");
+  out_.line(constant(module_.value_types.at(pending.id)) + type_of(pending.id) + " " + name + " = " +
+            pending.expression.text + ";");
   Expression e;
   e.text = name;
   e.precedence = 1;

@@ -249,7 +249,7 @@ void FunctionEmitter::store_to(const Instruction& i, const Place& p, const std::
     if (module_.component_count(p.type) > 1 && module_.type(p.type).kind != Kind::vector) {
       // Taken apart below: evaluated once.
       whole = names_.declare("t" + std::to_string(++temporary_count_));
-      out_.line("const auto " + whole + " = " + stored + ";");
+      out_.line("auto " + whole + " = " + stored + ";");
     }
     store_memory(p.base.text, at, p.type, 0, at.matrix, whole);
     return;

@@ -13,7 +13,7 @@ namespace {
 
 template <int W>
 constexpr Kernels lanes_kernels(Number number) {
-  return {Isa::TWINSHADE_ISA,          number,      cover, cover_one, collect_visible, add_covered,
+  return {Isa::TWINSHADE_ISA,          number,       cover,           cover_one, collect_visible, add_covered,
           interpolate<Simd<float, W>>, store_colors, store_superblock};
 }
 

@@ -116,8 +116,8 @@ struct StoreColors {
   float* color;  // of the tile: RGBA of each pixel
 };
 
-// A superblock of a tile, to the frame. Pointers are to its first pixel there; of `to`, colours begin 32 bytes and
-// depths and ids 16.
+// A superblock of a tile, to the frame. Pointers are to its first pixel. In every row to_color is 32-byte aligned,
+// to_depth and to_primitive_id 16.
 struct StoreSuperblock {
   const float* color;  // RGBA
   const float* depth;

@@ -18,7 +18,7 @@ void streams_done() {
 void TileWorker::store_tile() {
   const Frame& frame = draw_.frame;
   const std::uint32_t a_row = tile_.size / kSuperblock;
-  const bool aligned = frame.width % 4 == 0;
+  const bool aligned = frame.width % 4 == 0;  // as the kernel needs it: frames begin cache lines, superblocks at 16 n
   for (std::uint32_t superblock = 0; superblock < a_row * a_row; ++superblock) {
     const std::uint32_t x = tile_.x + superblock % a_row * kSuperblock, y = tile_.y + superblock / a_row * kSuperblock;
     const std::uint32_t first = superblock * kSuperblock * kSuperblock;

@@ -255,6 +255,8 @@ TEST_CASE("what a compiler complains of is one line, and nothing is left behind"
   CHECK(message.find('\n') == std::string::npos);
   CHECK(files_named(cache.folder, ".so").empty());
   CHECK(files_named(cache.folder, ".cpp").size() == 1);  // the runtime's
+  for (const auto& entry : fs::recursive_directory_iterator(cache.folder))
+    CHECK_MESSAGE(!entry.path().filename().string().starts_with(".twinshade-"), entry.path().string());
 }
 
 TEST_CASE("a compiler that makes nothing, or fails without a word, is named with a remedy") {

@@ -105,7 +105,8 @@ TEST_CASE("a process that is killed takes its programs and what they half made w
     if (process == 0) {
       ::signal(signal, SIG_DFL);
       run_script("echo x > $TMPDIR/left; echo x > " + made + "; echo x > " + cache.folder +
-                     "/.half-1-ab.so.tmp; sleep 100 & echo $! > " + number + ".new; mv " + number + ".new " + number +
+                     "/.half-1-ab.so.tmp; mkdir " + made + ".source; echo x > " + made +
+                     ".source/x; sleep 100 & echo $! > " + number + ".new; mv " + number + ".new " + number +
                      "; sleep 100",
                  seconds(20), made);
       _exit(0);

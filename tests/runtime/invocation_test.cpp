@@ -122,31 +122,36 @@ TEST_CASE_TEMPLATE("inputs, outputs, masks and buffers go where the call says", 
 }
 
 // Nothing is read, so nothing can be seen of it: for the sanitizers.
-TEST_CASE_TEMPLATE("texels can be asked for at any coordinates", N, Lanes<4>, Lanes<8>, Lanes<16>) {
+TEST_CASE_TEMPLATE("texels can be asked for at any coordinates, for any number of invocations and textures", N,
+                   Lanes<4>, Lanes<8>, Lanes<16>) {
+  constexpr std::uint32_t kMost = 272;
   const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
   const float odd[8] = {0, -0.001f, 0.999f, 1e9f, -3e38f, inf, -inf, nan};
-  Aligned<float> inputs(3 * kStride);
-  for (std::uint32_t i = 0; i < 16; ++i) {
+  Aligned<float> inputs(3 * kMost);
+  for (std::uint32_t i = 0; i < kMost; ++i) {
     inputs.data[i] = odd[i % 8];
-    inputs.data[kStride + i] = odd[i / 2];
-    inputs.data[2 * kStride + i] = float_of(i % 3 == 0 ? 0u : i % 3 == 1 ? 0x80000000u : 0x7fffffffu);
+    inputs.data[kMost + i] = odd[i / 2 % 8];
+    inputs.data[2 * kMost + i] = float_of(i % 3 == 0 ? 0u : i % 3 == 1 ? 0x80000000u : 0x7fffffffu);
   }
   for (const std::int32_t size : {1, 3, 8}) {
     const std::vector<float> texels(std::size_t(size) * std::size_t(size) * 4 * 2);
     const TextureView view{
         texels.data(),  size,        size, 2, size * 4, std::ptrdiff_t{size} * size * 4, TextureKind::two_d_array,
         Filter::linear, Wrap::repeat};
-    const TexelsAhead ahead[] = {{0, 0, 2}, {0, 0, -1}};
-    ShadeCall call{};
-    call.count = 16;
-    call.stride = kStride;
-    call.inputs = inputs.data;
-    call.ahead = ahead;
-    call.ahead_count = 2;
     const ShaderData data{nullptr, &view, nullptr};
-    TexelPrefetch<N> prefetch(data, call);
-    prefetch.ask_until(N::width);
-    prefetch.ask_until(100);
+    const std::vector<TexelsAhead> ahead{{0, 0, 2}, {0, 0, -1}, {0, 0, 2}, {0, 0, 2}, {0, 0, 2},
+                                         {0, 0, 2}, {0, 0, 2},  {0, 0, 2}, {0, 0, 2}, {0, 0, -1}};
+    for (const std::uint32_t count : {0u, 16u, 64u, 80u, 256u, kMost})
+      for (const std::uint32_t hints : {0u, 2u, 8u, 10u}) {
+        ShadeCall call{};
+        call.count = count;
+        call.stride = kMost;
+        call.inputs = inputs.data;
+        call.ahead = ahead.data();
+        call.ahead_count = hints;
+        TexelPrefetch<N> prefetch(data, call);
+        for (std::uint32_t end = 0; end < 2 * kMost; end += 24) prefetch.ask_until(end);
+      }
   }
 }
 

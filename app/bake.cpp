@@ -23,6 +23,7 @@ struct BakeVerb {
     apply(common);
     const Output output(common);
     require_writable_file(file);
+    output.require_not_read(files_read(subject, shading), file);
     const Subject ready = load_subject(subject, shading, common, output);
     write_bundle(file, ready.bundle);
 

@@ -43,6 +43,7 @@ struct RenderVerb {
       require_picture_ending(file);
       require_writable_file(file);
     }
+    output.require_not_read(files_read(subject, shading), file);
 
     const bool traced = shading.shader.empty() && shading.techniques.front() == kReferenceTechnique;
     if (traced && backend != "cpu") throw UserError("technique reference has no shader: the cpu alone draws it");

@@ -246,8 +246,21 @@ std::vector<const TechniqueInfo*> chosen_techniques(const ShadingOptions& option
   return chosen;
 }
 
+std::vector<std::string> files_read(const SubjectOptions& options, const ShadingOptions& shading) {
+  std::vector<std::string> files;
+  if (!shading.shader.empty()) files = load_fragment_shader(shading.shader).files;
+  const auto add = [&](const std::string& name, const std::vector<std::string>& built_in) {
+    if (!name.empty() && std::find(built_in.begin(), built_in.end(), name) == built_in.end()) files.push_back(name);
+  };
+  add(options.scene, scene_names());
+  add(options.environment, environment_names());
+  add(options.second_environment, environment_names());
+  return files;
+}
+
 Subject load_subject(const SubjectOptions& options, const ShadingOptions& shading, const CommonOptions& common,
                      const Output& output) {
+  output.require_not_read(files_read(options, shading));
   // Names and shaders are checked before anything that takes long.
   const bool own_shader = !shading.shader.empty();
   const std::string text = own_shader ? load_fragment_shader(shading.shader).text : "";

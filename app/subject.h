@@ -44,6 +44,9 @@ bool wants_all(const ShadingOptions& options);
 // The techniques named; all of them that have shaders for "all". UserError with the nearest names.
 std::vector<const TechniqueInfo*> chosen_techniques(const ShadingOptions& options);
 
+// The files that these options have read: what is written must not replace them. UserError where the shader is none.
+std::vector<std::string> files_read(const SubjectOptions& options, const ShadingOptions& shading);
+
 // Loads, lights and bakes, or reads the bundle; says aloud what the loader had to say. The bundle carries the
 // coefficients of the chosen techniques as --light says, or, for a user's shader, those that it names
 // (coefficients_BASIS, volume_BASIS); nothing else is baked. UserError where a technique that was named cannot be lit

@@ -49,7 +49,7 @@ struct SourceFolder {
   explicit SourceFolder(const std::string& target) : path(target + ".source") {
     std::error_code code;
     fs::create_directory(path, code);
-    if (code) throw UserError(path + ": cannot be created: " + code.message());
+    if (code) throw UserError(path + ": cannot be created: " + code.message() + "; set TWINSHADE_CACHE");
   }
   ~SourceFolder() {
     std::error_code ignored;

@@ -35,10 +35,8 @@ constexpr const char* kRun =
 // $1: that folder, $2: how files and folders half made begin. Compilers end at TERM, some a moment later, and remove
 // what they made; what ignores it is killed, and this shell with it.
 constexpr const char* kWatch =
-    "PATH=/usr/bin:/bin; trap '' HUP INT TERM; read -r _; kill -TERM 0; sleep 0.2; rm -rf -- \"$1\"; [ -z \"$2\" ] || "
-    "rm "
-    "-rf -- \"$2\"[.-]*; "
-    "kill -KILL 0";
+    "PATH=/usr/bin:/bin; trap '' HUP INT TERM; read -r _; kill -TERM 0; sleep 0.2; rm -rf -- \"$1\"; "
+    "[ -z \"$2\" ] || rm -rf -- \"$2\"[.-]*; kill -KILL 0";
 
 // A folder of its own, empty where there is no place for one: compilers find another, or say what they miss.
 struct TemporaryFolder {

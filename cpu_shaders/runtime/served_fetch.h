@@ -176,7 +176,7 @@ TWINSHADE_FUNCTION mat<typename N::F, 2, 4> exact_fetch_pair(Sampler2DArray<Real
       return {detail::filtered_once(view.texels, where, 0), detail::filtered_once(view.texels, where, 4)};
     detail::Unset<mat<typename N::F, 2, 4>> both;
     detail::filter_layers<2>(view.texels, detail::TapTable<N::width, 4>(where), both.value.c);
-    return {both.value.c[0], both.value.c[1]};
+    return both.value;
   }
   return {exact_fetch<N>(first, taps, layer), exact_fetch<N>(second, taps, layer)};
 }

@@ -105,7 +105,7 @@ TWINSHADE_FUNCTION vec<typename N::F, 3> sphere_map_color(const TextureView& vie
                                                       clamp_to_size(t.y, view.height),
                                                       clamp_to_size(t.z * I(maps) + I(map), view.layers));
   };
-  vec<typename N::F, 4> weight(taps.weight);
+  const vec<typename N::F, 4> weight(taps.weight);
   return rgb((texel(vec<I, 3>(taps.texel_00)) * weight.x + texel(vec<I, 3>(taps.texel_10)) * weight.y) +
              (texel(vec<I, 3>(taps.texel_01)) * weight.z + texel(vec<I, 3>(taps.texel_11)) * weight.w));
 }

@@ -159,6 +159,7 @@ TEST_CASE("nothing is written over what is read, nor two results to one file") {
       folder.file("a.json", R"({"values": {"inputs": [{"name": "x", "type": "float", "values": [5]}]}})");
   const std::string side = folder.file("a.frag.inputs", "x 0..1\n");
   fs::create_symlink(cases, folder / "link.json");
+  const std::string model = folder.file("model.glb", "a model"), sky = folder.file("sky.hdr", "a sky");
   const std::string fresh = folder / "fresh";
   const std::vector<std::string> eval{"eval", shader, "--cases", cases, "--on", "cpu"};
   const std::vector<std::string> check{"check", shader, "--on", "cpu,egl", "--no-timing"};
@@ -175,7 +176,13 @@ TEST_CASE("nothing is written over what is read, nor two results to one file") {
       {check, {"--junit", part}},
       {check, {"--inputs", fresh, "--json", fresh}},
       {{"translate", shader}, {"-o", part}},
-      {{"translate", shader}, {"-o", fresh, "--json", fresh}}};
+      {{"translate", shader}, {"-o", fresh, "--json", fresh}},
+      {{"bake", model}, {"-o", model}},
+      {{"bake", "quad"}, {"-o", fresh, "--json", fresh}},
+      {{"render", "quad", "--env", sky}, {"-o", sky}},
+      {{"render", "quad", "--env", sky, "--technique", "reference"}, {"--json", sky}},
+      {{"compare", "quad", "--env2", sky}, {"--json", sky}},
+      {{"compare", "quad", "--shader", shader}, {"--json", part}}};
   for (const auto& verb_and_files : refused) {
     std::vector<std::string> arguments = verb_and_files.first;
     arguments.insert(arguments.end(), verb_and_files.second.begin(), verb_and_files.second.end());
@@ -186,6 +193,8 @@ TEST_CASE("nothing is written over what is read, nor two results to one file") {
   }
   CHECK(read_file(shader) == text);
   CHECK(read_file(side) == "x 0..1\n");
+  CHECK(read_file(model) == "a model");
+  CHECK(read_file(sky) == "a sky");
   CHECK(!fs::exists(fresh));
 }
 

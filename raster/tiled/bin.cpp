@@ -3,6 +3,7 @@
 // threads do.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <utility>
 
 #include "base/error.h"
@@ -33,12 +34,14 @@ bool may_touch(const RasterTriangle& t, std::uint32_t column, std::uint32_t row,
 // What one chunk's primitives need, and where they go.
 class ChunkSetup {
  public:
-  ChunkSetup(const Bundle& bundle, const BoundDraw& draw, AttributeMode mode, const TileGrid& grid,
-             const Geometry& geometry, TriangleChunk& chunk)
+  ChunkSetup(const Bundle& bundle, const BoundDraw& draw, AttributeMode mode, const Kernels& kernels,
+             const TileGrid& grid, const Geometry& geometry, TriangleChunk& chunk)
       : bundle_(bundle),
         draw_(draw),
         native_(mode == AttributeMode::native),
+        kernels_(kernels),
         grid_(grid),
+        tile_shift_(std::countr_zero(grid.tile_size)),
         geometry_(geometry),
         chunk_(chunk),
         viewport_(make_viewport(bundle.width, bundle.height)) {}
@@ -48,7 +51,8 @@ class ChunkSetup {
     chunk_.clipped_inputs.clear();
     chunk_.references.clear();
     chunk_.tile_counts.assign(grid_.count(), 0);
-    for (std::size_t primitive = begin; primitive < end; ++primitive) add_primitive(std::uint32_t(primitive));
+    for (std::size_t first = begin; first < end; first += kSetUpAtOnce)
+      add_primitives(std::uint32_t(first), std::uint32_t(std::min<std::size_t>(end - first, kSetUpAtOnce)));
     TWINSHADE_CHECK_LT(used_, std::size_t{1} << TriangleRef::kIndexBits);
   }
 
@@ -63,23 +67,52 @@ class ChunkSetup {
     return {geometry_.vertices[vertex], native_ ? geometry_.positions[vertex] : WindowPosition{}, vertex};
   }
 
-  void add_primitive(std::uint32_t primitive) {
-    const std::uint32_t* index = &bundle_.indices[std::size_t(primitive) * 3];
-    const WindowVertex corners[3] = {geometry_.vertices[index[0]], geometry_.vertices[index[1]],
-                                     geometry_.vertices[index[2]]};
-    // Planes that vertices are outside of.
-    const std::uint32_t in_any = corners[0].outside | corners[1].outside | corners[2].outside;
-    const std::uint32_t in_all = corners[0].outside & corners[1].outside & corners[2].outside;
-    if (in_any == 0) {
-      RasterTriangle* triangle = set_up(primitive, corners);
-      if (triangle && native_)
-        add_native(*triangle, {corner_of_vertex(index[0]), corner_of_vertex(index[1]), corner_of_vertex(index[2])});
-    } else if (!(in_any & kNotFinite) && in_all == 0) {
-      add_clipped(primitive, index, in_any);
+  // In their order, with what is left of those that are cut in their place.
+  void add_primitives(std::uint32_t first, std::uint32_t count) {
+    const std::uint32_t* index = &bundle_.indices[std::size_t(first) * 3];
+    const TriangleMasks masks = set_up(geometry_.vertices.data(), index, count, room_for_triangles());
+    if (masks.cut == 0) {  // they are where they belong
+      for (std::uint32_t left = masks.visible; left != 0; left &= left - 1)
+        add_visible(first, index, std::uint32_t(std::countr_zero(left)));
+      return;
+    }
+    RasterTriangle ready[kSetUpAtOnce];
+    std::copy_n(room_for_triangles(), kSetUpAtOnce, ready);
+    const RasterTriangle* next = ready;
+    for (std::uint32_t left = masks.visible | masks.cut; left != 0; left &= left - 1) {
+      const std::uint32_t i = std::uint32_t(std::countr_zero(left));
+      if (masks.cut >> i & 1) {
+        add_clipped(first + i, index + 3 * i);
+      } else {
+        *room_for_triangles() = *next++;
+        add_visible(first, index, i);
+      }
     }
   }
 
-  void add_clipped(std::uint32_t primitive, const std::uint32_t index[3], std::uint32_t outside) {
+  // The triangle that is next in the chunk: primitive `first` + i, whole.
+  void add_visible(std::uint32_t first, const std::uint32_t* index, std::uint32_t i) {
+    const RasterTriangle& triangle = add_triangle(first + i);
+    if (native_)
+      add_native(triangle, {corner_of_vertex(index[3 * i]), corner_of_vertex(index[3 * i + 1]),
+                            corner_of_vertex(index[3 * i + 2])});
+  }
+
+  // For kSetUpAtOnce more.
+  RasterTriangle* room_for_triangles() {
+    if (used_ + kSetUpAtOnce > chunk_.triangles.size()) chunk_.triangles.resize(2 * used_ + kTrianglesAtOnce);
+    return &chunk_.triangles[used_];
+  }
+
+  TriangleMasks set_up(const WindowVertex* vertices, const std::uint32_t* indices, std::uint32_t count,
+                       RasterTriangle* out) const {
+    return kernels_.set_up_triangles(
+        {vertices, indices, count, grid_.frame_width, grid_.frame_height, bundle_.cull_back_faces, out});
+  }
+
+  void add_clipped(std::uint32_t primitive, const std::uint32_t index[3]) {
+    std::uint32_t outside = 0;
+    for (int i = 0; i < 3; ++i) outside |= geometry_.vertices[index[i]].outside;
     float positions[12];
     for (int i = 0; i < 3; ++i) std::copy_n(&bundle_.clip_positions[std::size_t(index[i]) * 4], 4, positions + 4 * i);
     const ClippedTriangle clipped = clip_triangle(positions, outside);
@@ -94,7 +127,13 @@ class ChunkSetup {
     for (int i = 2; i < clipped.count; ++i) {  // the polygon's fan, its first vertex last, as Mesa emits it
       const std::array<Corner, 3> corners = {corner(clipped.polygon[std::size_t(i - 1)]),
                                              corner(clipped.polygon[std::size_t(i)]), corner(clipped.polygon[0])};
-      if (!bundle_.cull_back_faces || faces_front(corners)) add_triangle(primitive, corners);
+      if (bundle_.cull_back_faces && !faces_front(corners)) continue;
+      WindowVertex window[3];
+      for (std::size_t k = 0; k < 3; ++k) window[k] = {corners[k].window.x, corners[k].window.y, 0, 0};
+      constexpr std::uint32_t kInOrder[3] = {0, 1, 2};
+      if (set_up(window, kInOrder, 1, room_for_triangles()).visible == 0) continue;
+      const RasterTriangle& triangle = add_triangle(primitive);
+      if (native_) add_native(triangle, corners);
     }
   }
 
@@ -143,20 +182,12 @@ class ChunkSetup {
     return v.t;
   }
 
-  void add_triangle(std::uint32_t primitive, const std::array<Corner, 3>& corners) {
-    const WindowVertex window[3] = {corners[0].window, corners[1].window, corners[2].window};
-    const RasterTriangle* triangle = set_up(primitive, window);
-    if (triangle && native_) add_native(*triangle, corners);
-  }
-
-  // Null where it cannot be seen.
-  RasterTriangle* set_up(std::uint32_t primitive, const WindowVertex corners[3]) {
-    if (used_ == chunk_.triangles.size()) chunk_.triangles.resize(2 * used_ + kTrianglesAtOnce);
+  // The one that is next in the chunk.
+  const RasterTriangle& add_triangle(std::uint32_t primitive) {
     RasterTriangle& triangle = chunk_.triangles[used_];
-    if (!set_up_triangle(corners, grid_, bundle_.cull_back_faces, triangle)) return nullptr;
     triangle.primitive = primitive;
     add_references(triangle, std::uint32_t(used_++));
-    return &triangle;
+    return triangle;
   }
 
   void add_native(const RasterTriangle& triangle, const std::array<Corner, 3>& corners) {
@@ -170,23 +201,29 @@ class ChunkSetup {
   }
 
   void add_references(const RasterTriangle& t, std::uint32_t index) {
-    const std::uint32_t size = grid_.tile_size;
-    const std::uint32_t column0 = t.min_x / size, column1 = t.max_x / size;
-    const std::uint32_t row0 = t.min_y / size, row1 = t.max_y / size;
-    const bool one_tile = column0 == column1 && row0 == row1;
+    const std::uint32_t column0 = std::uint32_t(t.min_x) >> tile_shift_,
+                        column1 = std::uint32_t(t.max_x) >> tile_shift_;
+    const std::uint32_t row0 = std::uint32_t(t.min_y) >> tile_shift_, row1 = std::uint32_t(t.max_y) >> tile_shift_;
+    if (((column0 ^ column1) | (row0 ^ row1)) == 0) {
+      add_reference(row0 * grid_.columns + column0, index);
+      return;
+    }
     for (std::uint32_t row = row0; row <= row1; ++row)
       for (std::uint32_t column = column0; column <= column1; ++column)
-        if (one_tile || may_touch(t, column, row, size)) {
-          const std::uint32_t tile = row * grid_.columns + column;
-          chunk_.references.push_back({tile, index});
-          ++chunk_.tile_counts[tile];
-        }
+        if (may_touch(t, column, row, grid_.tile_size)) add_reference(row * grid_.columns + column, index);
+  }
+
+  void add_reference(std::uint32_t tile, std::uint32_t index) {
+    chunk_.references.push_back({tile, index});
+    ++chunk_.tile_counts[tile];
   }
 
   const Bundle& bundle_;
   const BoundDraw& draw_;
   const bool native_;
+  const Kernels& kernels_;
   const TileGrid& grid_;
+  const int tile_shift_;
   const Geometry& geometry_;
   TriangleChunk& chunk_;
   const Viewport viewport_;
@@ -202,21 +239,22 @@ TileGrid make_grid(std::uint32_t frame_width, std::uint32_t frame_height, int ti
   return {frame_width, frame_height, size, (frame_width + size - 1) / size, (frame_height + size - 1) / size};
 }
 
-void transform_vertices(const Bundle& bundle, AttributeMode mode, Geometry& geometry) {
+void transform_vertices(const Bundle& bundle, AttributeMode mode, const Kernels& kernels, Geometry& geometry) {
   const std::size_t count = bundle.vertex_count();
   geometry.vertices.resize(count);
   geometry.positions.resize(mode == AttributeMode::native ? count : 0);
   const Viewport viewport = make_viewport(bundle.width, bundle.height);
   parallel_for(divide_up(count, kVerticesAtOnce), [&](std::size_t i, int) {
     const FlushDenormals flush;
-    transform_vertices(bundle.clip_positions.data(), i * kVerticesAtOnce, std::min(count, (i + 1) * kVerticesAtOnce),
-                       viewport, geometry.vertices.data(),
-                       geometry.positions.empty() ? nullptr : geometry.positions.data());
+    const std::size_t first = i * kVerticesAtOnce;
+    kernels.transform_vertices({&bundle.clip_positions[4 * first], std::min(count - first, kVerticesAtOnce), viewport,
+                                &geometry.vertices[first],
+                                geometry.positions.empty() ? nullptr : &geometry.positions[first]});
   });
 }
 
-void set_up_and_bin(const Bundle& bundle, const BoundDraw& draw, AttributeMode mode, const TileGrid& grid,
-                    Geometry& geometry) {
+void set_up_and_bin(const Bundle& bundle, const BoundDraw& draw, AttributeMode mode, const Kernels& kernels,
+                    const TileGrid& grid, Geometry& geometry) {
   const std::size_t triangles = bundle.triangle_count();
   const std::size_t chunk_count =
       std::clamp<std::size_t>(divide_up(triangles, kTrianglesAtOnce), 1,
@@ -225,7 +263,7 @@ void set_up_and_bin(const Bundle& bundle, const BoundDraw& draw, AttributeMode m
   geometry.chunks.resize(chunk_count);
   parallel_for(chunk_count, [&](std::size_t i, int) {
     const FlushDenormals flush;
-    ChunkSetup(bundle, draw, mode, grid, geometry, geometry.chunks[i])
+    ChunkSetup(bundle, draw, mode, kernels, grid, geometry, geometry.chunks[i])
         .run(std::min(triangles, i * chunk_size), std::min(triangles, (i + 1) * chunk_size));
   });
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "raster/tiled/bind.h"
+#include "raster/tiled/kernels.h"
 #include "raster/tiled/triangle.h"
 
 namespace twinshade::tiled {
@@ -47,12 +48,8 @@ struct Geometry {
 };
 
 // In parallel, with denormals flushed.
-void transform_vertices(const Bundle& bundle, AttributeMode mode, Geometry& geometry);
-void set_up_and_bin(const Bundle& bundle, const BoundDraw& draw, AttributeMode mode, const TileGrid& grid,
-                    Geometry& geometry);
-
-// False where no pixel centre of the frame can be inside: zero area, culled, between centres, or beyond kSnapLimit.
-// v: x, y of three vertices in subpixels. Does not fill `primitive`.
-bool set_up_triangle(const WindowVertex v[3], const TileGrid& grid, bool cull_back_faces, RasterTriangle& out);
+void transform_vertices(const Bundle& bundle, AttributeMode mode, const Kernels& kernels, Geometry& geometry);
+void set_up_and_bin(const Bundle& bundle, const BoundDraw& draw, AttributeMode mode, const Kernels& kernels,
+                    const TileGrid& grid, Geometry& geometry);
 
 }  // namespace twinshade::tiled

@@ -4,36 +4,37 @@
 #include "raster/tiled/coverage_kernel.h"
 #include "raster/tiled/interpolate_kernel.h"
 #include "raster/tiled/kernel_list.h"
+#include "raster/tiled/setup_kernel.h"
 #include "raster/tiled/store_kernel.h"
 #include "raster/tiled/store_superblock_kernel.h"
 #include "raster/tiled/visible_kernel.h"
+#include "raster/tiled/window_kernel.h"
 
 namespace twinshade::tiled {
 namespace {
 
-template <int W>
-constexpr Kernels lanes_kernels(Number number) {
-  return {Isa::TWINSHADE_ISA,          number,       cover,           cover_one, collect_visible, add_covered,
-          interpolate<Simd<float, W>>, store_colors, store_superblock};
+// F: lanes of float, or of double.
+template <class F>
+constexpr Kernels kernels(Number number) {
+  return {Isa::TWINSHADE_ISA, number,      transform_vertices, set_up_triangles, cover,           cover_one,
+          collect_visible,    add_covered, interpolate<F>,     store_colors,     store_superblock};
 }
 
 constexpr Kernels kList[] = {
 #if TWINSHADE_NUMBERS & 1
-    lanes_kernels<4>(Number::lanes4),
+    kernels<Simd<float, 4>>(Number::lanes4),
 #endif
 #if TWINSHADE_NUMBERS & 2
-    lanes_kernels<8>(Number::lanes8),
+    kernels<Simd<float, 8>>(Number::lanes8),
 #endif
 #if TWINSHADE_NUMBERS & 4
-    lanes_kernels<16>(Number::lanes16),
+    kernels<Simd<float, 16>>(Number::lanes16),
 #endif
 #if TWINSHADE_NUMBERS & 8
-    {Isa::TWINSHADE_ISA, Number::scalar, cover, cover_one, collect_visible, add_covered, interpolate<Simd<float, 4>>,
-     store_colors, store_superblock},
+    kernels<Simd<float, 4>>(Number::scalar),
 #endif
 #if TWINSHADE_NUMBERS & 16
-    {Isa::TWINSHADE_ISA, Number::float64, cover, cover_one, collect_visible, add_covered, interpolate<Plain<double, 4>>,
-     store_colors, store_superblock},
+    kernels<Plain<double, 4>>(Number::float64),
 #endif
 };
 

@@ -16,6 +16,34 @@ namespace twinshade::tiled {
 inline constexpr std::uint32_t kSuperblock = 16;
 inline constexpr std::uint32_t kNotVisible = 0xffffffffu;
 
+// Vertices to window space.
+struct TransformVertices {
+  const float* clip_positions;  // 4 a vertex
+  std::size_t count;
+  Viewport viewport;
+  WindowVertex* vertices;     // out
+  WindowPosition* positions;  // out, or null
+};
+
+// Triangles, for coverage.
+inline constexpr std::uint32_t kSetUpAtOnce = 16;
+struct SetUpTriangles {
+  const WindowVertex* vertices;
+  const std::uint32_t* indices;  // 3 a triangle
+  std::uint32_t count;           // 1 to kSetUpAtOnce
+  std::uint32_t frame_width, frame_height;
+  bool cull_back_faces;
+  // Out, with room for kSetUpAtOnce: the visible ones, in order; `primitive` is 0.
+  RasterTriangle* triangles;
+};
+// Bit i: triangle i.
+struct TriangleMasks {
+  // Wholly within the view volume and over a pixel centre of the frame. Not those of zero area, culled, between
+  // centres, or beyond kSnapLimit.
+  std::uint32_t visible;
+  std::uint32_t cut;  // by the view volume's planes
+};
+
 // A primitive (exact attributes) or a triangle (native ones: clipping may make several of a primitive) in a tile.
 struct LocalPrimitive {
   std::uint32_t primitive;
@@ -133,6 +161,8 @@ struct StoreSuperblock {
 struct Kernels {
   Isa isa;
   Number number;
+  void (*transform_vertices)(const TransformVertices&);
+  TriangleMasks (*set_up_triangles)(const SetUpTriangles&);
   // Covers and depth-tests all triangles; leaves depth and visible.
   void (*cover)(const CoverTile&);
   // Covers triangle `which` alone. With early_depth_test, pixels that fail it now are left out. Returns how many quads

@@ -32,9 +32,9 @@ void allocate(Frame& frame, const Bundle& bundle, const BoundDraw& bound, const 
 StageMilliseconds draw_frame(const Draw& draw, std::vector<std::unique_ptr<TileWorker>>& workers) {
   StageClock clock;
   clock.start();
-  transform_vertices(draw.bundle, draw.options.attributes, draw.geometry);
+  transform_vertices(draw.bundle, draw.options.attributes, draw.kernels, draw.geometry);
   clock.lap(Stage::vertex);
-  set_up_and_bin(draw.bundle, draw.bound, draw.options.attributes, draw.grid, draw.geometry);
+  set_up_and_bin(draw.bundle, draw.bound, draw.options.attributes, draw.kernels, draw.grid, draw.geometry);
   clock.lap(Stage::bin);
 
   for (const auto& worker : workers) worker->clock().reset();

@@ -30,6 +30,7 @@ enum ClipBit : std::uint32_t {  // in the order in which planes are clipped agai
 struct WindowVertex {
   std::int32_t x, y;      // subpixels; kUnusable where beyond kSnapLimit or NaN
   std::uint32_t outside;  // ClipBit set
+  std::uint32_t padding;  // to 16 bytes
 };
 
 // Window position in pixels and 1 / w, kept for native attributes only.
@@ -45,9 +46,5 @@ Viewport make_viewport(std::uint32_t frame_width, std::uint32_t frame_height);
 // The rounding of every step is part of the raster rule: 1 / w, times it, times the scale, plus the centre.
 WindowPosition to_window(const float clip[4], const Viewport& viewport);
 WindowVertex snap(const WindowPosition& position, std::uint32_t outside);
-
-// Vertices [begin, end) of `clip_positions`. `positions` may be null.
-void transform_vertices(const float* clip_positions, std::size_t begin, std::size_t end, const Viewport& viewport,
-                        WindowVertex* out, WindowPosition* positions);
 
 }  // namespace twinshade::tiled

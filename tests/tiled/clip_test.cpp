@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "raster/tiled/clip.h"
+#include "raster/tiled/kernels.h"
 #include "raster/tiled/tiled_renderer.h"
 #include "raster/tiled/window.h"
 #include "tests/tiled/hand_module.h"
@@ -21,7 +22,7 @@ void random_positions(float (&p)[12], test::Random& random, double reach) {
 
 std::uint32_t outside(const float (&p)[12]) {
   tiled::WindowVertex v[3];
-  tiled::transform_vertices(p, 0, 3, {32, 32}, v, nullptr);
+  tiled::choose_kernels(Isa::baseline, Number::lanes4).transform_vertices({p, 3, {32, 32}, v, nullptr});
   return v[0].outside | v[1].outside | v[2].outside;
 }
 

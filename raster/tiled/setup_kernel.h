@@ -76,7 +76,7 @@ class TriangleSetup {
     }
   }
 
-  // Coordinates are below 2^23, so all sums and products are whole numbers below 2^53: exact in double.
+  // Coordinates are at most 2^23, so all sums and products are whole numbers below 2^53: exact in double.
   TWINSHADE_INLINE void face_front() {
     const std::int32_t both = call_.cull_back_faces ? 0 : -1;
     for (std::uint32_t k = 0; k < kLanes; ++k) {

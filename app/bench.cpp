@@ -60,6 +60,7 @@ int BenchVerb::run() const {
         fmt::format("--threads {}: timings need a processor for each, and this process may use {} processors",
                     thread_count(), processor_count()));
   if (!folder.empty()) require_writable_folder(folder);
+  output.require_not_read(files_read(subject, shading));
   return axes.empty() ? time_techniques(output) : time_scaling(output);
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -12,6 +13,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "experiments/experiment.h"
+#include "scenes/environment.h"
 
 namespace twinshade {
 namespace {
@@ -31,6 +33,12 @@ int ExperimentVerb::run() {
     throw UserError("experiment " + name + " takes no probe, but '" + options.probes.front() + "' is given");
   apply(common);
   const Output output(common);
+  std::vector<std::string> probe_files = options.probes;
+  const std::vector<std::string> built_in = environment_names();
+  std::erase_if(probe_files, [&](const std::string& probe) {
+    return std::find(built_in.begin(), built_in.end(), probe) != built_in.end();
+  });
+  output.require_not_read(probe_files);
   if (!folder.empty()) require_writable_folder(folder);
   options.seed = common.seed;
   options.pictures = !folder.empty();

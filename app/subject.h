@@ -44,7 +44,8 @@ bool wants_all(const ShadingOptions& options);
 // The techniques named; all of them that have shaders for "all". UserError with the nearest names.
 std::vector<const TechniqueInfo*> chosen_techniques(const ShadingOptions& options);
 
-// The files that these options have read: what is written must not replace them. UserError where the shader is none.
+// The files that these options name, and those that the shader includes: what is written must not replace them. Not the
+// images and buffers that a model names. UserError where the shader is none.
 std::vector<std::string> files_read(const SubjectOptions& options, const ShadingOptions& shading);
 
 // Loads, lights and bakes, or reads the bundle; says aloud what the loader had to say. The bundle carries the

@@ -1,4 +1,4 @@
-// Perspective division, viewport and snapping as measured on Mesa 22.3 (docs/raster-rule.md). Runs with denormals
+// Perspective division, viewport and snapping as measured on Mesa 22.3 (docs/raster-rule.md). Run with denormals
 // flushed. Written for one vertex; compilers turn the loop into vectors.
 #pragma once
 

@@ -182,7 +182,10 @@ TEST_CASE("nothing is written over what is read, nor two results to one file") {
       {{"render", "quad", "--env", sky}, {"-o", sky}},
       {{"render", "quad", "--env", sky, "--technique", "reference"}, {"--json", sky}},
       {{"compare", "quad", "--env2", sky}, {"--json", sky}},
-      {{"compare", "quad", "--shader", shader}, {"--json", part}}};
+      {{"compare", "quad", "--shader", shader}, {"--json", part}},
+      {{"bench", "quad", "--env", sky, "--threads", "1"}, {"--json", sky}},
+      {{"bench", "quad", "--env", sky, "--threads", "1", "--technique", "sh3", "--scaling", "pixels"}, {"--json", sky}},
+      {{"experiment", "probe-rmse", sky}, {"--json", sky}}};
   for (const auto& verb_and_files : refused) {
     std::vector<std::string> arguments = verb_and_files.first;
     arguments.insert(arguments.end(), verb_and_files.second.begin(), verb_and_files.second.end());

@@ -1,6 +1,7 @@
 // Which fragment stays: the nearest, the first of equals; for shaders that discard or write depth as well.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "raster/tiled/tiled_renderer.h"
@@ -104,6 +105,36 @@ TEST_CASE("side effects happen for every covered pixel, in primitive order, hidd
   for (const std::uint32_t id : frame.primitive_id) REQUIRE(id == 3);
   CHECK(frame.color[0] == 3 * 256);
   CHECK(bundle.buffers[0].bytes[0] == std::byte{0});  // the bundle's own stays as it was
+}
+
+TEST_CASE("whole primitives and those that are cut have their side effects in their order") {
+  constexpr std::size_t kCount = 37;  // two groups that are set up at once, and a part of a third
+  const auto is_cut = [](std::size_t i) { return i % 3 == 1; };
+  const auto scene = [&](std::size_t begin, std::size_t end, std::size_t nearest) {
+    test::Random random(9);
+    Bundle bundle = test::empty_bundle(16, 16);
+    for (std::size_t i = begin; i < end; ++i) {
+      const float z = i == nearest ? -0.5f : 0.5f, reach = is_cut(i) ? 3.0f : 1.0f;
+      const float corner[12] = {-1, -1, z, 1, reach, -1, z, 1, -1, reach, z, 1};
+      test::add_triangle(bundle, corner, random);
+    }
+    test::finish(bundle);
+    bundle.buffers.push_back({"counter", true, std::vector<std::byte>(4)});
+    return bundle;
+  };
+  const auto pixels_of = [&](std::size_t i) {
+    const Frame alone = draw_tiled(scene(i, i + 1, i), test::side_effect_module(), {});
+    return std::count(alone.coverage.begin(), alone.coverage.end(), std::uint8_t{1});
+  };
+  const std::ptrdiff_t whole = pixels_of(0), cut = pixels_of(1);
+  REQUIRE(whole < cut);
+  std::ptrdiff_t before = 0;
+  for (std::size_t nearest = 0; nearest < kCount; ++nearest) {
+    const Frame frame = draw_tiled(scene(0, kCount, nearest), test::side_effect_module(), {});
+    REQUIRE(frame.primitive_id[0] == nearest);
+    REQUIRE(frame.color[0] == float(before));
+    before += is_cut(nearest) ? cut : whole;
+  }
 }
 
 TEST_CASE("native depth and inputs are close to the exact ones where the triangle is not extreme") {

@@ -129,6 +129,35 @@ TEST_CASE("vertices are in the window where each alone is, for every instruction
     }
 }
 
+TEST_CASE("vertices are snapped to the nearest subpixel, of two the even one, up to a limit") {
+  // window = 32 * x + 32; in subpixels 256 * (window - 0.5).
+  const std::vector<std::pair<double, std::int32_t>> cases{{0, 0},
+                                                           {2.5, 2},
+                                                           {3.5, 4},
+                                                           {3.25, 3},
+                                                           {-2.5, -2},
+                                                           {-3.5, -4},
+                                                           {8388607, 8388607},
+                                                           {-8388607, -8388607},
+                                                           {8388608, kUnusable},
+                                                           {-8388608, kUnusable}};
+  std::vector<float> clip;
+  for (const auto& [subpixels, snapped] : cases) {
+    const double x = (subpixels / 256 + 0.5 - 32) / 32;
+    REQUIRE(double(float(x)) == x);
+    clip.insert(clip.end(), {float(x), float(x), 0, 1});
+  }
+  for (const Kernels* kernels : kernels_of_machine()) {
+    std::vector<WindowVertex> vertices(cases.size());
+    kernels->transform_vertices({clip.data(), cases.size(), {32, 32}, vertices.data(), nullptr});
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      CAPTURE(cases[i].first);
+      CHECK(vertices[i].x == cases[i].second);
+      CHECK(vertices[i].y == cases[i].second);
+    }
+  }
+}
+
 TEST_CASE("triangles are set up exactly, as many as there are, for every instruction set") {
   test::Random random(22);
   for (const Kernels* kernels : kernels_of_machine()) {
@@ -140,7 +169,9 @@ TEST_CASE("triangles are set up exactly, as many as there are, for every instruc
       std::vector<std::uint32_t> indices(3 * count);
       for (std::uint32_t& index : indices) index = random.below(std::uint32_t(vertices.size()));
       RasterTriangle triangles[kSetUpAtOnce];
-      const SetUpTriangles call{vertices.data(), indices.data(), count, 1280, 800, random.below(2) == 0, triangles};
+      constexpr std::uint32_t kSizes[] = {1, 800, 1280, 16384};
+      const SetUpTriangles call{vertices.data(),         indices.data(),       count,    kSizes[random.below(4)],
+                                kSizes[random.below(4)], random.below(2) == 0, triangles};
       const TriangleMasks masks = kernels->set_up_triangles(call);
       CAPTURE(isa_name(kernels->isa));
       CAPTURE(count);
@@ -171,6 +202,7 @@ TEST_CASE("triangles are set up exactly, as many as there are, for every instruc
         REQUIRE(found->max_x == t.max_x);
         REQUIRE(found->max_y == t.max_y);
         REQUIRE(found->front_facing == t.front_facing);
+        REQUIRE(found->primitive == 0);
         ++found;
       }
     }

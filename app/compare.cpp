@@ -305,6 +305,7 @@ int CompareVerb::run() const {
   if (cpu.number == Number::float64)
     throw UserError("--number float64: frames in double have other bits by design; twinshade render draws them");
   if (!folder.empty()) require_writable_folder(folder);
+  output.require_not_read(files_read(subject, shading));
   return CompareRun(*this, output).run();
 }
 

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -10,6 +9,7 @@
 #include "app/output.h"
 #include "app/provenance.h"
 #include "app/rows_output.h"
+#include "app/subject.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "experiments/experiment.h"
@@ -33,12 +33,7 @@ int ExperimentVerb::run() {
     throw UserError("experiment " + name + " takes no probe, but '" + options.probes.front() + "' is given");
   apply(common);
   const Output output(common);
-  std::vector<std::string> probe_files = options.probes;
-  const std::vector<std::string> built_in = environment_names();
-  std::erase_if(probe_files, [&](const std::string& probe) {
-    return std::find(built_in.begin(), built_in.end(), probe) != built_in.end();
-  });
-  output.require_not_read(probe_files);
+  output.require_not_read(files_among(options.probes, environment_names()));
   if (!folder.empty()) require_writable_folder(folder);
   options.seed = common.seed;
   options.pictures = !folder.empty();

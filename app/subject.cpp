@@ -246,21 +246,24 @@ std::vector<const TechniqueInfo*> chosen_techniques(const ShadingOptions& option
   return chosen;
 }
 
+std::vector<std::string> files_among(std::vector<std::string> names, const std::vector<std::string>& built_in) {
+  std::erase_if(names, [&](const std::string& name) {
+    return name.empty() || std::find(built_in.begin(), built_in.end(), name) != built_in.end();
+  });
+  return names;
+}
+
 std::vector<std::string> files_read(const SubjectOptions& options, const ShadingOptions& shading) {
   std::vector<std::string> files;
   if (!shading.shader.empty()) files = load_fragment_shader(shading.shader).files;
-  const auto add = [&](const std::string& name, const std::vector<std::string>& built_in) {
-    if (!name.empty() && std::find(built_in.begin(), built_in.end(), name) == built_in.end()) files.push_back(name);
-  };
-  add(options.scene, scene_names());
-  add(options.environment, environment_names());
-  add(options.second_environment, environment_names());
+  for (const auto& more : {files_among({options.scene}, scene_names()),
+                           files_among({options.environment, options.second_environment}, environment_names())})
+    files.insert(files.end(), more.begin(), more.end());
   return files;
 }
 
 Subject load_subject(const SubjectOptions& options, const ShadingOptions& shading, const CommonOptions& common,
                      const Output& output) {
-  output.require_not_read(files_read(options, shading));
   // Names and shaders are checked before anything that takes long.
   const bool own_shader = !shading.shader.empty();
   const std::string text = own_shader ? load_fragment_shader(shading.shader).text : "";

@@ -44,6 +44,8 @@ bool wants_all(const ShadingOptions& options);
 // The techniques named; all of them that have shaders for "all". UserError with the nearest names.
 std::vector<const TechniqueInfo*> chosen_techniques(const ShadingOptions& options);
 
+// The names that are neither empty nor built in: files.
+std::vector<std::string> files_among(std::vector<std::string> names, const std::vector<std::string>& built_in);
 // The files that these options name, and those that the shader includes: what is written must not replace them. Not the
 // images and buffers that a model names. UserError where the shader is none.
 std::vector<std::string> files_read(const SubjectOptions& options, const ShadingOptions& shading);

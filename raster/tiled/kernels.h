@@ -1,5 +1,6 @@
-// The loops over vertices, triangles and pixels, compiled once for each instruction set and chosen at run time. Plain data only: this header is
-// read by code of every instruction set, so nothing inline in it may be called from two of them.
+// The loops over vertices, triangles and pixels, compiled once for each instruction set and chosen at run time. Plain
+// data only: this header is read by code of every instruction set, so nothing inline in it may be called from two of
+// them.
 #pragma once
 
 #include <cstddef>

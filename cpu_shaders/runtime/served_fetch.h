@@ -70,6 +70,8 @@ TWINSHADE_FUNCTION vec<F, 3> rgb(const vec<F, 4>& texel) {
 template <class N>
 inline constexpr bool has_exact_fetch = is_simd<N>;
 template <class N>
+inline constexpr bool has_exact_fetch_ones = is_simd<N>;
+template <class N>
 inline constexpr bool has_exact_fetch_threes = is_simd<N>;
 template <class N>
 inline constexpr bool has_exact_fetch_layers = is_simd<N>;
@@ -126,40 +128,64 @@ TWINSHADE_FUNCTION void exact_fetch_layers(Sampler2DArray<Real> maps, const Exac
   detail::filter_layers<count>(view.texels, detail::TapTable<N::width, 4>(detail::locate<N>(view, taps)), layers.e);
 }
 
-template <class N>
-using Threes = arr<mat<typename N::F, 3, 3>, 3>;
+// Column k of what begins at each of three layers.
+namespace detail {
+template <class F>
+TWINSHADE_FUNCTION vec<F, 3>& column(vec<F, 3>& one, int) {
+  return one;
+}
+template <class F>
+TWINSHADE_FUNCTION vec<F, 3>& column(mat<F, 3, 3>& three, int k) {
+  return three.c[k];
+}
+}  // namespace detail
 
-template <class N, class Real, class Low, class High>
-TWINSHADE_APART void exact_fetch_threes_apart(Sampler2DArray<Real> maps, const Low& low, const High& high,
-                                              const vec<typename N::I, 3>& first, Threes<N>& threes) {
+template <class N, class Real, class Low, class High, class Run>
+TWINSHADE_APART void fetch_runs_apart(Sampler2DArray<Real> maps, const Low& low, const High& high,
+                                      const vec<typename N::I, 3>& first, arr<Run, 3>& runs) {
   using I = typename N::I;
+  constexpr int length = sizeof(Run) / sizeof(vec<typename N::F, 3>);
   const I last(maps.view->layers - 1);
-  const auto three = [&](const I& from) TWINSHADE_LAMBDA {
-    const auto layer = [&](int k) TWINSHADE_LAMBDA {
+  const auto fill = [&](const I& from, Run& run) TWINSHADE_LAMBDA {
+    for (int k = 0; k < length; ++k) {
       const I at = lanes_min(from + I(k), last);
-      return detail::rgb(exact_fetch<N>(maps, low, at)) + detail::rgb(exact_fetch<N>(maps, high, at));
-    };
-    return mat<typename N::F, 3, 3>(layer(0), layer(1), layer(2));
+      detail::column(run, k) =
+          detail::rgb(exact_fetch<N>(maps, low, at)) + detail::rgb(exact_fetch<N>(maps, high, at));
+    }
   };
-  threes.e[0] = three(first.x);
-  threes.e[1] = three(first.y);
-  threes.e[2] = three(first.z);
+  fill(first.x, runs.e[0]);
+  fill(first.y, runs.e[1]);
+  fill(first.z, runs.e[2]);
+}
+
+// As many layers as Run has colours, from each of three on.
+template <class N, class Real, class Low, class High, Vec First, class Run>
+TWINSHADE_FUNCTION void fetch_runs(Sampler2DArray<Real> maps, const Low& low, const High& high, const First& first,
+                                   arr<Run, 3>& runs) {
+  using I = typename N::I;
+  constexpr int length = sizeof(Run) / sizeof(vec<typename N::F, 3>);
+  const TextureView& view = *maps.view;
+  const vec<I, 3> from(first);
+  const I most(view.layers - length);
+  const auto inside = [&](const I& layer) TWINSHADE_LAMBDA { return (layer >= I(0)) & (layer <= most); };
+  if (view.layer_pitch != 4 || !all(inside(from.x) & inside(from.y) & inside(from.z)))
+    return fetch_runs_apart<N>(maps, Low(low), High(high), vec<I, 3>(first), runs);
+  const auto layer = [](const I& i) TWINSHADE_LAMBDA { return typename N::U(i.template to<std::uint32_t>()); };
+  detail::filter_runs<length>(
+      view.texels, detail::TapTable<N::width, 8>(detail::locate<N>(view, low), detail::locate<N>(view, high)),
+      detail::Starts<N::width, 3>(layer(from.x), layer(from.y), layer(from.z)), runs);
+}
+
+template <class N, class Real, class Low, class High, Vec First>
+TWINSHADE_FUNCTION void exact_fetch_ones(Sampler2DArray<Real> maps, const Low& low, const High& high,
+                                         const First& layer, arr<vec<typename N::F, 3>, 3>& ones) {
+  fetch_runs<N>(maps, low, high, layer, ones);
 }
 
 template <class N, class Real, class Low, class High, Vec First>
 TWINSHADE_FUNCTION void exact_fetch_threes(Sampler2DArray<Real> maps, const Low& low, const High& high,
-                                           const First& first, Threes<N>& threes) {
-  using I = typename N::I;
-  const TextureView& view = *maps.view;
-  const vec<I, 3> from(first);
-  const I most(view.layers - 3);
-  const auto inside = [&](const I& layer) TWINSHADE_LAMBDA { return (layer >= I(0)) & (layer <= most); };
-  if (view.layer_pitch != 4 || !all(inside(from.x) & inside(from.y) & inside(from.z)))
-    return exact_fetch_threes_apart<N>(maps, Low(low), High(high), vec<I, 3>(first), threes);
-  const auto layer = [](const I& i) TWINSHADE_LAMBDA { return typename N::U(i.template to<std::uint32_t>()); };
-  detail::filter_threes(view.texels,
-                        detail::TapTable<N::width, 8>(detail::locate<N>(view, low), detail::locate<N>(view, high)),
-                        detail::Starts<N::width, 3>(layer(from.x), layer(from.y), layer(from.z)), threes);
+                                           const First& first, arr<mat<typename N::F, 3, 3>, 3>& threes) {
+  fetch_runs<N>(maps, low, high, first, threes);
 }
 
 template <class N, class Real, class ExactTaps, Lane I>

@@ -24,6 +24,7 @@ inline constexpr ServedFunction kServedFunctions[] = {
     {"exact_asin", "float", "float"},
     {"exact_fetch", "vec4", "sampler2D,ExactTaps"},
     {"exact_fetch", "vec4", "sampler2DArray,ExactTaps,int"},
+    {"exact_fetch_ones", "void", "sampler2DArray,ExactTaps,ExactTaps,ivec3,vec3[]"},
     {"exact_fetch_threes", "void", "sampler2DArray,ExactTaps,ExactTaps,ivec3,mat3x3[]"},
     {"exact_fetch_layers", "void", "sampler2DArray,ExactTaps,vec4[]"},
     {"exact_fetch_colors", "void", "sampler2DArray,ExactTaps,vec3[]"},

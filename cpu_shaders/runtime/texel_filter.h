@@ -173,6 +173,13 @@ struct TapTable {
     put(high, 4);
   }
 
+  TWINSHADE_INLINE bool same_for_all_lanes() const {
+    using U = Simd<std::uint32_t, W>;
+    U differ(0u);
+    unrolled<T>([&](auto tap) TWINSHADE_LAMBDA { differ = differ | (U::load(at[tap]) ^ U(at[tap][0])); });
+    return all(differ == U(0u));
+  }
+
  private:
   TWINSHADE_INLINE void put(const Taps<W>& taps, int first) {
     store_places(taps.at, at + first);
@@ -324,23 +331,56 @@ __attribute__((noinline)) TWINSHADE_WHOLE void filter_layers(const float* texels
                                   TWINSHADE_LAMBDA { store_lanes<W>(layers, number, first_lane, lanes); });
 }
 
-// The colours of three layers that lie side by side, four floats each, from three layers on.
-template <int W, int T>
-__attribute__((noinline)) TWINSHADE_WHOLE void filter_threes(const float* texels, const TapTable<W, T>& taps,
-                                                             const Starts<W, 3>& first,
-                                                             arr<mat<Simd<float, W>, 3, 3>, 3>& threes) {
-  filter_floats<12, W>(texels, taps, first, 0, [&](int first_lane, auto number, const auto& lanes) TWINSHADE_LAMBDA {
-    if constexpr (number % 4 != 3) store_lanes<W>(threes, number / 4 * 3 + number % 4, first_lane, lanes);
-  });
+// The colours of `length` layers that lie side by side, four floats each, from each of three layers on.
+template <int length, int W, int T, class Run>
+__attribute__((noinline)) TWINSHADE_WHOLE void filter_runs(const float* texels, const TapTable<W, T>& taps,
+                                                           const Starts<W, 3>& first, arr<Run, 3>& runs) {
+  filter_floats<4 * length, W>(
+      texels, taps, first, 0, [&](int first_lane, auto number, const auto& lanes) TWINSHADE_LAMBDA {
+        if constexpr (number % 4 != 3) store_lanes<W>(runs, number / 4 * 3 + number % 4, first_lane, lanes);
+      });
 }
 
 // Floats of a texel with the colours of `count` layers, as LayerOrder::colors_together lays them.
 constexpr int color_floats(int count) { return count / 5 * 16 + (count % 5 == 0 ? 0 : count % 5 == 1 ? 4 : 16); }
 
+// Where this is fewer instructions than sums lane by lane (by count: 23 a channel against 17 a float and 128): with 16
+// lanes a number from memory is part of the product.
+template <int count, int W>
+inline constexpr bool kOnce = W == 16 || (W == 8 && count <= 16);
+
+// The same where all lanes read the same texels: their numbers, times each lane's weights.
+template <int count, int W, int T>
+TWINSHADE_FUNCTION void filter_colors_once(const float* texels, const TapTable<W, T>& taps,
+                                           arr<vec<Simd<float, W>, 3>, count>& colors) {
+  using V = Register<float, W>;
+  const float* texel[T];
+  V weight[T];
+  unrolled<T>([&](auto tap) TWINSHADE_LAMBDA {
+    texel[tap] = texels + std::size_t{taps.at[tap][0]} * 2;
+    __asm__("" : "+r"(texel[tap]));  // g++ would put eight addresses together in registers, to take them apart again
+    weight[tap] = registers::load<W>(taps.weight[tap]);
+  });
+  unrolled<3 * count>([&](auto channel) TWINSHADE_LAMBDA {
+    constexpr int kAt = channel / 15 * 16 + channel % 15;
+    const auto product = [&](int tap)
+                             TWINSHADE_LAMBDA { return registers::splat<float, W>(texel[tap][kAt]) * weight[tap]; };
+    const auto four = [&](int tap) TWINSHADE_LAMBDA {
+      return (product(tap) + product(tap + 1)) + (product(tap + 2) + product(tap + 3));
+    };
+    if constexpr (T == 4)
+      store_lanes<W>(colors, channel, 0, four(0));
+    else
+      store_lanes<W>(colors, channel, 0, V(four(0) + four(4)));
+  });
+}
+
 // The colours of `count` layers that lie side by side so.
 template <int count, int W, int T>
 __attribute__((noinline)) TWINSHADE_WHOLE void filter_colors(const float* texels, const TapTable<W, T>& taps,
                                                              arr<vec<Simd<float, W>, 3>, count>& colors) {
+  if constexpr (Simd<float, W>::whole && T == 8 && kOnce<count, W>)
+    if (taps.same_for_all_lanes()) return filter_colors_once(texels, taps, colors);
   filter_floats<color_floats(count), W>(texels, taps, TexelStart(), 0,
                                         [&](int first_lane, auto number, const auto& lanes) TWINSHADE_LAMBDA {
                                           constexpr int channel = number / 16 * 15 + number % 16;

@@ -117,7 +117,7 @@ std::map<Id, LayerOrder> layer_orders(const Program& program) {
   std::set<Id> together, colors, otherwise;
   for (const auto& [id, info] : program.functions) {
     const Function& f = *info.function;
-    if (is_served_as(program.module, f, {"exact_fetch_threes", "exact_fetch_layers"}))
+    if (is_served_as(program.module, f, {"exact_fetch_ones", "exact_fetch_threes", "exact_fetch_layers"}))
       together.insert(f.parameters[0].id);
     if (fetches_colors(program.module, f)) {
       colors.insert(f.parameters[0].id);

@@ -26,8 +26,10 @@ float basis_value(int i, vec3 n) {
 
 vec3 basis_irradiance(vec3 n) {
   DiceTriangle triangle = dice_planar_triangle(n);
-  precise vec3 irradiance = COEF(triangle.vertex.x) * triangle.barycentric.x;
-  irradiance += COEF(triangle.vertex.y) * triangle.barycentric.y;
-  irradiance += COEF(triangle.vertex.z) * triangle.barycentric.z;
+  vec3 values[3];
+  COEF_ONES(triangle.vertex, values);
+  precise vec3 irradiance = values[0] * triangle.barycentric.x;
+  irradiance += values[1] * triangle.barycentric.y;
+  irradiance += values[2] * triangle.barycentric.z;
   return irradiance;
 }

@@ -72,21 +72,31 @@ vec4 exact_fetch(sampler2DArray maps, ExactTaps taps, int layer) {
   return filtered;
 }
 
-// RGB of layers first to first + 2, a column each: sums of what two taps read. Past the last layer, the last one.
-mat3 exact_fetch_3(sampler2DArray maps, ExactTaps low, ExactTaps high, int first) {
-  int last = textureSize(maps, 0).z - 1;
-  ivec3 layer = min(ivec3(first, first + 1, first + 2), last);
-  precise vec3 a = exact_fetch(maps, low, layer.x).rgb + exact_fetch(maps, high, layer.x).rgb;
-  precise vec3 b = exact_fetch(maps, low, layer.y).rgb + exact_fetch(maps, high, layer.y).rgb;
-  precise vec3 c = exact_fetch(maps, low, layer.z).rgb + exact_fetch(maps, high, layer.z).rgb;
-  return mat3(a, b, c);
+// RGB of a layer: the sum of what two taps read. Past the last layer, the last one.
+vec3 exact_fetch_sum(sampler2DArray maps, ExactTaps low, ExactTaps high, int layer) {
+  int inside = min(layer, textureSize(maps, 0).z - 1);
+  precise vec3 sum = exact_fetch(maps, low, inside).rgb + exact_fetch(maps, high, inside).rgb;
+  return sum;
+}
+
+// The same of three layers.
+void exact_fetch_ones(sampler2DArray maps, ExactTaps low, ExactTaps high, ivec3 layer, out vec3 ones[3]) {
+  ones[0] = exact_fetch_sum(maps, low, high, layer.x);
+  ones[1] = exact_fetch_sum(maps, low, high, layer.y);
+  ones[2] = exact_fetch_sum(maps, low, high, layer.z);
+}
+
+// The same of three layers from first on, a column each.
+mat3 exact_fetch_three(sampler2DArray maps, ExactTaps low, ExactTaps high, int first) {
+  return mat3(exact_fetch_sum(maps, low, high, first), exact_fetch_sum(maps, low, high, first + 1),
+              exact_fetch_sum(maps, low, high, first + 2));
 }
 
 // The same from first.x, first.y and first.z on.
 void exact_fetch_threes(sampler2DArray maps, ExactTaps low, ExactTaps high, ivec3 first, out mat3 threes[3]) {
-  threes[0] = exact_fetch_3(maps, low, high, first.x);
-  threes[1] = exact_fetch_3(maps, low, high, first.y);
-  threes[2] = exact_fetch_3(maps, low, high, first.z);
+  threes[0] = exact_fetch_three(maps, low, high, first.x);
+  threes[1] = exact_fetch_three(maps, low, high, first.y);
+  threes[2] = exact_fetch_three(maps, low, high, first.z);
 }
 
 // The same layer of two arrays, a column each.

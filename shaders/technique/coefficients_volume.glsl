@@ -12,7 +12,9 @@ uniform vec3 volume_scale;      // probes per unit of length, each axis
 uniform ivec3 volume_size;      // probes along each axis
 uniform sampler2DArray COEFFICIENTS;  // RGB
 
-ExactTaps volume_low, volume_high;  // the four probes below and above
+struct VolumeTaps {
+  ExactTaps low, high;  // the four probes below and above
+};
 
 // NaN reads probe 0.
 float volume_place(float place, int size) {
@@ -21,7 +23,7 @@ float volume_place(float place, int size) {
   return low < last ? low : last;
 }
 
-void place_volume_taps() {
+VolumeTaps volume_taps() {
   precise vec3 place = (v_position - volume_origin) * volume_scale;
   precise vec3 inside = vec3(volume_place(place.x, volume_size.x), volume_place(place.y, volume_size.y),
                              volume_place(place.z, volume_size.z));
@@ -31,32 +33,30 @@ void place_volume_taps() {
   vec4 weight = exact_bilinear_weights(fraction.xy);
   int low_row = low.z * volume_size.y;
   int high_row = high.z * volume_size.y;
-  volume_low.texel = ivec4(low.x, low_row + low.y, high.x, low_row + high.y);
-  volume_high.texel = ivec4(low.x, high_row + low.y, high.x, high_row + high.y);
   precise vec4 low_weight = weight * (1.0 - fraction.z);
   precise vec4 high_weight = weight * fraction.z;
-  volume_low.weight = low_weight;
-  volume_high.weight = high_weight;
-}
-
-vec3 volume_coefficient(int i) {
-  precise vec3 coefficient = exact_fetch(COEFFICIENTS, volume_low, i).rgb + exact_fetch(COEFFICIENTS, volume_high, i).rgb;
-  return coefficient;
+  VolumeTaps taps;
+  taps.low = ExactTaps(ivec4(low.x, low_row + low.y, high.x, low_row + high.y), low_weight);
+  taps.high = ExactTaps(ivec4(low.x, high_row + low.y, high.x, high_row + high.y), high_weight);
+  return taps;
 }
 
 #if COEFFICIENTS_PICKED
+VolumeTaps coefficient_taps;
+
 void load_coefficients() {
-  place_volume_taps();
+  coefficient_taps = volume_taps();
 }
 
-#define COEF(i) volume_coefficient(i)
-#define COEF_THREES(i, threes) exact_fetch_threes(COEFFICIENTS, volume_low, volume_high, i, threes)
+#define COEF(i) exact_fetch_sum(COEFFICIENTS, coefficient_taps.low, coefficient_taps.high, i)
+#define COEF_ONES(i, ones) exact_fetch_ones(COEFFICIENTS, coefficient_taps.low, coefficient_taps.high, i, ones)
+#define COEF_THREES(i, threes) exact_fetch_threes(COEFFICIENTS, coefficient_taps.low, coefficient_taps.high, i, threes)
 #else
 vec3 coefficients[COEFFICIENT_COUNT];
 
 void load_coefficients() {
-  place_volume_taps();
-  exact_fetch_colors(COEFFICIENTS, volume_low, volume_high, coefficients);
+  VolumeTaps taps = volume_taps();
+  exact_fetch_colors(COEFFICIENTS, taps.low, taps.high, coefficients);
 }
 
 #define COEF(i) coefficients[i]

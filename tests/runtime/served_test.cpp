@@ -60,7 +60,27 @@ void main() {
 }
 )";
 
-// Sums of two taps, of three layers from each of three on: all there; some past the last layer; alike for all lanes.
+// Sums of two taps, of three layers: all there; some before the first or past the last one; alike for all lanes.
+constexpr const char* kOnes = R"(
+#include "exact/bilinear.glsl"
+uniform sampler2DArray maps;
+in vec2 uv;
+in float layer;
+out vec3 inside[3];
+out vec3 beyond[3];
+out vec3 one_for_all[3];
+void main() {
+  ExactTaps low = exact_taps_clamp(uv, textureSize(maps, 0).xy);
+  ExactTaps high = exact_taps_clamp(uv.yx, textureSize(maps, 0).xy);
+  int i = int(layer);
+  exact_fetch_ones(maps, low, high, ivec3(i, 7 - i, 1), inside);
+  exact_fetch_ones(maps, high, low, ivec3(i * 3, -i, i + 6), beyond);
+  exact_fetch_ones(maps, exact_taps_clamp(vec2(0.3, 0.6), textureSize(maps, 0).xy), low, ivec3(5, 0, 3), one_for_all);
+}
+)";
+
+// Sums of two taps, of three layers from each of three on: all there; some before the first or past the last layer; alike for
+// all lanes.
 constexpr const char* kThrees = R"(
 #include "exact/bilinear.glsl"
 uniform sampler2DArray maps;
@@ -77,7 +97,7 @@ void main() {
   mat3 past[3];
   mat3 alike[3];
   exact_fetch_threes(maps, low, high, ivec3(i, 5 - i, 1), at);
-  exact_fetch_threes(maps, high, low, ivec3(i * 3, 2, 6), past);
+  exact_fetch_threes(maps, high, low, ivec3(i * 3, -i, 6), past);
   exact_fetch_threes(maps, exact_taps_clamp(vec2(0.3, 0.6), textureSize(maps, 0).xy), low, ivec3(5, 0, 3), alike);
   for (int k = 0; k < 9; ++k) {
     inside[k] = at[k / 3][k % 3];
@@ -116,7 +136,7 @@ void main() {
 }
 )";
 
-// The colours of all layers of a map, and sums of two.
+// The colours of all layers of a map, and sums of two, whose texels are near where those of uv are.
 std::string colors_text(int count) {
   return "#define FETCHED_COLORS " + std::to_string(count) + R"(
 #include "exact/fetch_colors.glsl"
@@ -125,11 +145,13 @@ in vec2 uv;
 in float layer;
 out vec3 colors[FETCHED_COLORS];
 out vec3 sums[FETCHED_COLORS];
+out vec3 near[FETCHED_COLORS];
 out vec3 one_for_all[FETCHED_COLORS];
 void main() {
   ExactTaps taps = exact_taps_clamp(uv, textureSize(maps, 0).xy);
   exact_fetch_colors(maps, taps, colors);
   exact_fetch_colors(maps, taps, exact_taps_clamp(vec2(uv.y, layer), textureSize(maps, 0).xy), sums);
+  exact_fetch_colors(maps, taps, exact_taps_clamp(uv.yx, textureSize(maps, 0).xy), near);
   exact_fetch_colors(maps, exact_taps_clamp(vec2(0.3, 0.6), textureSize(maps, 0).xy), taps, one_for_all);
 }
 )";
@@ -302,14 +324,15 @@ struct ManyLayers {
 };
 
 TEST_CASE(
-    "fetches of three times three layers give the bits of their GLSL, side by side in memory or not, all there or "
-    "not") {
+    "fetches of three layers and of three times three give the bits of their GLSL, side by side in memory or not, all "
+    "there or not") {
   const ManyLayers array(8), few(2);
   SideBySide layers;
   const TextureView together = layers.layers(array.view);
   for (const TextureView& view : {array.view, together, few.view})
     for (const float spread : {1.0f, 0.001f})
-      check_served(kThrees, "exact_fetch_threes", random_rows(4000, spread), std::array{view});
+      for (const auto& [text, name] : {std::pair(kOnes, "exact_fetch_ones"), {kThrees, "exact_fetch_threes"}})
+        check_served(text, name, random_rows(4000, spread), std::array{view});
 }
 
 TEST_CASE("fetches of sphere maps give the bits of their GLSL, side by side in memory or not") {

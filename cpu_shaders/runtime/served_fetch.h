@@ -149,8 +149,7 @@ TWINSHADE_APART void fetch_runs_apart(Sampler2DArray<Real> maps, const Low& low,
   const auto fill = [&](const I& from, Run& run) TWINSHADE_LAMBDA {
     for (int k = 0; k < length; ++k) {
       const I at = lanes_min(from + I(k), last);
-      detail::column(run, k) =
-          detail::rgb(exact_fetch<N>(maps, low, at)) + detail::rgb(exact_fetch<N>(maps, high, at));
+      detail::column(run, k) = detail::rgb(exact_fetch<N>(maps, low, at)) + detail::rgb(exact_fetch<N>(maps, high, at));
     }
   };
   fill(first.x, runs.e[0]);

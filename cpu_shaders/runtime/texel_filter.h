@@ -335,10 +335,11 @@ __attribute__((noinline)) TWINSHADE_WHOLE void filter_layers(const float* texels
 template <int length, int W, int T, class Run>
 __attribute__((noinline)) TWINSHADE_WHOLE void filter_runs(const float* texels, const TapTable<W, T>& taps,
                                                            const Starts<W, 3>& first, arr<Run, 3>& runs) {
-  filter_floats<4 * length, W>(
-      texels, taps, first, 0, [&](int first_lane, auto number, const auto& lanes) TWINSHADE_LAMBDA {
-        if constexpr (number % 4 != 3) store_lanes<W>(runs, number / 4 * 3 + number % 4, first_lane, lanes);
-      });
+  filter_floats<4 * length, W>(texels, taps, first, 0,
+                               [&](int first_lane, auto number, const auto& lanes) TWINSHADE_LAMBDA {
+                                 if constexpr (number % 4 != 3)
+                                   store_lanes<W>(runs, number / 4 * 3 + number % 4, first_lane, lanes);
+                               });
 }
 
 // Floats of a texel with the colours of `count` layers, as LayerOrder::colors_together lays them.

@@ -25,27 +25,21 @@ void Batch::begin_tile(std::uint32_t x, std::uint32_t y) {
   tile_y_ = y;
 }
 
-void Batch::add_quad(std::uint32_t local, std::uint32_t quad, std::uint32_t coverage) {
-  quads_ = true;
-  if (run_count_ == 0 || runs_[run_count_ - 1].local != local) runs_[run_count_++] = {local, count_};
-  for (std::uint32_t i = 0; i < 4; ++i, ++count_) {
-    pixels_[count_] = 4 * quad + i;
-    live_[count_] = coverage >> i & 1 ? ~0u : 0u;
-  }
-}
-
-std::size_t Batch::add_covered(const VisibleBlock* blocks, std::size_t block_count) {
-  AddCovered call{blocks, block_count, kBatchSize, pixels_, runs_, count_, run_count_};
-  const std::size_t taken = draw_.kernels.add_covered(call);
+std::size_t Batch::add(const VisibleBlock* blocks, std::size_t block_count, const float* depths) {
+  AddCovered call{blocks, block_count, kBatchSize, pixels_, live_, runs_, depths, depths_, count_, run_count_};
+  const Kernels& kernels = draw_.kernels;
+  const std::size_t taken = quads() ? kernels.add_quads(call) : kernels.add_covered(call);
   count_ = call.count;
   run_count_ = call.run_count;
   return taken;
 }
 
 void Batch::clear() {
-  quads_ = false;
+  tested_ = false;
   const std::uint32_t first = shaded(), left = count_ - first;
   std::copy_n(pixels_ + first, left, pixels_);
+  std::copy_n(live_ + first, left, live_);
+  std::copy_n(depths_ + first, left, depths_);
   std::uint32_t run = run_count_;
   while (run > 0 && end_of_run(run - 1, count_) > first) --run;
   run_count_ -= run;
@@ -57,7 +51,7 @@ void Batch::clear() {
 void Batch::shade(const LocalPrimitive* primitives, StageClock& clock) {
   // Whole vectors of 16: dead invocations repeat the last one.
   const std::uint32_t count = shaded(), padded = (count + 15) / 16 * 16;
-  if (!quads_) std::fill_n(live_, count, ~0u);
+  if (!quads()) std::fill_n(live_, count, ~0u);
   for (std::uint32_t k = count; k < padded; ++k) {
     pixels_[k] = pixels_[count - 1];
     live_[k] = 0;
@@ -116,6 +110,32 @@ float Batch::frag_depth(std::uint32_t k) const {
   return depth < 1 ? (depth > 0 ? depth : 0.0f) : 1.0f;  // NaN: 1, which no depth is greater than
 }
 
+// Without branches: which ones are kept cannot be predicted. Depths are not negative, so their bits compare as they do.
+template <bool writes_depth>
+void Batch::test_depth_of(float* tile_depth, std::uint32_t* tile_visible) {
+  const std::uint32_t count = shaded();
+  for (std::uint32_t r = 0; r < run_count_ && runs_[r].first < count; ++r) {
+    const std::uint32_t local = runs_[r].local;
+    for (std::uint32_t k = runs_[r].first, end = std::min(end_of_run(r, count), count); k < end; ++k) {
+      const std::uint32_t pixel = pixels_[k];
+      const auto depth = std::bit_cast<std::uint32_t>(writes_depth ? frag_depth(k) : depths_[k]);
+      const auto before = std::bit_cast<std::uint32_t>(tile_depth[pixel]);
+      const bool nearer = (kept_[k] != 0) & (depth < before);
+      tile_depth[pixel] = std::bit_cast<float>(nearer ? depth : before);
+      tile_visible[pixel] = nearer ? local : tile_visible[pixel];
+      live_[k] = nearer ? ~0u : 0u;
+    }
+  }
+}
+
+void Batch::test_depth(float* tile_depth, std::uint32_t* tile_visible) {
+  tested_ = true;
+  if (draw_.module.writes_depth)
+    test_depth_of<true>(tile_depth, tile_visible);
+  else
+    test_depth_of<false>(tile_depth, tile_visible);
+}
+
 void Batch::store(float* tile_color) const {
   const bool float64 = draw_.float64();
   if (float64) {
@@ -128,7 +148,12 @@ void Batch::store(float* tile_color) const {
   for (std::uint32_t c = 0; c < draw_.bound.color_components; ++c)
     call.channels[c] = outputs + std::size_t(draw_.bound.color_first + c) * kStride;
   call.pixels = pixels_;
-  call.stored = quads_ ? live_ : nullptr;
+  std::uint32_t pixels[kBatchSize];
+  if (quads() || tested_) {  // those that are not stored go to a pixel after the tile's: no branches
+    const std::uint32_t spare = draw_.grid.tile_size * draw_.grid.tile_size;
+    for (std::uint32_t k = 0; k < shaded(); ++k) pixels[k] = (pixels_[k] & live_[k]) | (spare & ~live_[k]);
+    call.pixels = pixels;
+  }
   call.count = shaded();
   call.color = tile_color;
   draw_.kernels.store_colors(call);

@@ -211,30 +211,26 @@ inline void cover(const CoverTile& tile) {
 }
 
 template <class Depth>
-std::uint32_t cover_quads(const CoverTile& tile, std::uint32_t which, bool early_depth_test, CoveredQuad* out) {
+std::uint32_t cover_blocks(const CoverTile& tile, std::uint32_t which, bool early_depth_test, VisibleBlock* blocks,
+                           float* depths) {
   using F = BlockFloats;
   const ComputedPlaces<Depth::kNdc> places{tile};
+  const std::uint32_t local = tile.locals[which];
   std::uint32_t count = 0;
   cover_with_depth<Depth>(tile, places, which, [&](std::uint32_t pixel, BlockMask inside, F depth) TWINSHADE_LAMBDA {
     if (early_depth_test) inside = inside & (depth < F::load(tile.depth + pixel));
-    const std::uint32_t bits = inside.bits();
-    float depths[kBlock];
-    depth.store(depths);
-    for (int q = 0; q < kBlock / 4; ++q) {
-      const std::uint32_t coverage = bits >> (4 * q) & 15u;
-      if (coverage == 0) continue;
-      CoveredQuad& quad = out[count++];
-      quad.quad = pixel / 4 + std::uint32_t(q);
-      quad.coverage = coverage;
-      for (int i = 0; i < 4; ++i) quad.depth[i] = depths[4 * q + i];
-    }
+    const std::uint32_t coverage = inside.bits();
+    blocks[count] = {local, std::uint16_t(pixel / kBlock), std::uint16_t(coverage)};
+    depth.store(depths + kBlock * std::size_t{count});
+    count += coverage != 0;
   });
   return count;
 }
 
-inline std::uint32_t cover_one(const CoverTile& tile, std::uint32_t which, bool early_depth_test, CoveredQuad* out) {
-  return tile.primitives->native ? cover_quads<NativeDepth>(tile, which, early_depth_test, out)
-                                 : cover_quads<ExactDepth>(tile, which, early_depth_test, out);
+inline std::uint32_t cover_one(const CoverTile& tile, std::uint32_t which, bool early_depth_test, VisibleBlock* blocks,
+                               float* depths) {
+  return tile.primitives->native ? cover_blocks<NativeDepth>(tile, which, early_depth_test, blocks, depths)
+                                 : cover_blocks<ExactDepth>(tile, which, early_depth_test, blocks, depths);
 }
 
 }  // namespace TWINSHADE_ISA_NAMESPACE

@@ -44,11 +44,9 @@ class Batch {
   std::uint32_t count() const { return count_; }
   // Shade it before more is added.
   bool full() const { return count_ >= kBatchSize; }
-  // All four pixels of a quad. quad: index in the tile's memory / 4; coverage: bit i for its pixel i.
-  void add_quad(std::uint32_t local, std::uint32_t quad, std::uint32_t coverage);
-  // The covered pixels alone, of blocks until it is full. Returns how many blocks it took. A batch has invocations of
-  // one kind only.
-  std::size_t add_covered(const VisibleBlock* blocks, std::size_t block_count);
+  // The covered pixels of blocks until it is full; where the shader has derivatives, all four of each quad that has
+  // some. depths: 16 a block, where test_depth follows. Returns how many blocks it took.
+  std::size_t add(const VisibleBlock* blocks, std::size_t block_count, const float* depths = nullptr);
 
   // Fills inputs, runs the shader on kBatchSize invocations or all that there are, stores nothing yet. Pads with dead
   // ones to whole vectors first.
@@ -56,22 +54,24 @@ class Batch {
   // Keeps what was added beyond kBatchSize.
   void clear();
 
-  // What became of an invocation: whether it was covered and the shader kept it.
-  bool kept(std::uint32_t invocation) const { return kept_[invocation] != 0; }
-  float frag_depth(std::uint32_t invocation) const;
-  // It is not to be stored.
-  void drop(std::uint32_t invocation) { live_[invocation] = 0; }
+  // Of shaded invocations, in order, those that the shader kept and that are nearer than the tile's depth become what
+  // the tile shows; the others are not stored.
+  void test_depth(float* tile_depth, std::uint32_t* tile_visible);
   // Colours of covered pixels to the tile's RGBA pixels; attributes and unrounded colours, where asked for, to the
   // frame.
   void store(float* tile_color) const;
 
  private:
+  float frag_depth(std::uint32_t invocation) const;
+  template <bool writes_depth>
+  void test_depth_of(float* tile_depth, std::uint32_t* tile_visible);
   void store_narrowed(float* tile_color) const;
   template <class R>
   void store_extras(const R* outputs, const R* inputs) const;
 
   static constexpr std::uint32_t kStride = kBatchSize + 32;  // a block more, and the words that are written past it
 
+  bool quads() const { return draw_.module.uses_derivatives; }  // live_ says which are covered; else all are
   std::uint32_t end_of_run(std::uint32_t run, std::uint32_t count) const {
     return run + 1 < run_count_ ? std::min(runs_[run + 1].first, count) : count;
   }
@@ -80,8 +80,9 @@ class Batch {
   const Draw& draw_;
   std::uint32_t tile_x_ = 0, tile_y_ = 0;
   std::uint32_t count_ = 0, run_count_ = 0;
-  bool quads_ = false;                                         // live_ says which are covered; else all are
+  bool tested_ = false;                                        // live_ says which are stored
   alignas(64) std::uint32_t pixels_[kStride], live_[kStride];  // of each invocation
+  alignas(64) float depths_[kStride];                          // of each, where test_depth follows
   ShadeRun runs_[kStride];
   std::vector<std::uint8_t> interpolation_, scalars_;
   // Doubles for all numbers: floats use the first half.
@@ -98,11 +99,6 @@ class TileWorker {
   std::uint32_t tiles_shaded() const { return tiles_shaded_; }
 
  private:
-  struct BatchQuad {
-    CoveredQuad quad;
-    std::uint32_t local;
-  };
-
   void gather_triangles(std::uint32_t tile);
   void shade_visible();  // shade_pass.cpp
   void collect_visible();
@@ -123,7 +119,7 @@ class TileWorker {
   AlignedArray<float> depth_;
   AlignedArray<std::uint32_t> visible_;
   // Of the tile's pixels in memory order, when shading is done; clear where nothing is visible.
-  AlignedArray<float> color_;                 // RGBA
+  AlignedArray<float> color_;                 // RGBA; room for a pixel more, for what is not stored
   AlignedArray<std::uint32_t> primitive_id_;  // if DrawOptions::visibility
   std::vector<const RasterTriangle*> triangles_;
   std::vector<std::uint32_t> locals_;
@@ -131,8 +127,8 @@ class TileWorker {
 
   std::vector<VisibleBlock> found_, sorted_;  // shade_pass.cpp
   std::vector<std::uint32_t> place_of_local_;
-  std::vector<CoveredQuad> covered_;  // in_order_pass.cpp
-  std::vector<BatchQuad> batch_quads_;
+  std::vector<VisibleBlock> covered_;  // in_order_pass.cpp
+  std::vector<float> covered_depths_;
 };
 
 }  // namespace twinshade::tiled

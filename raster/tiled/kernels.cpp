@@ -16,8 +16,8 @@ namespace {
 // F: lanes of float, or of double.
 template <class F>
 constexpr Kernels kernels(Number number) {
-  return {Isa::TWINSHADE_ISA, number,      transform_vertices, set_up_triangles, cover,           cover_one,
-          collect_visible,    add_covered, interpolate<F>,     store_colors,     store_superblock};
+  return {Isa::TWINSHADE_ISA, number,      transform_vertices, set_up_triangles, cover,        cover_one,
+          collect_visible,    add_covered, add_quads,          interpolate<F>,   store_colors, store_superblock};
 }
 
 constexpr Kernels kList[] = {

@@ -75,14 +75,7 @@ struct CoverTile {
   std::uint32_t* visible;  // local index, or kNotVisible
 };
 
-// A quad with at least one covered pixel, as in_order shading takes it.
-struct CoveredQuad {
-  std::uint32_t quad;      // index in the tile's memory / 4
-  std::uint32_t coverage;  // bit i: pixel i of the quad
-  float depth[4];          // where covered
-};
-
-// Where one primitive is visible in a 4 x 4 block.
+// Where one primitive is visible in a 4 x 4 block, or one triangle covers it.
 struct VisibleBlock {
   std::uint32_t local;     // index into the tile's LocalPrimitives
   std::uint16_t block;     // index in the tile's memory / 16
@@ -105,13 +98,16 @@ struct ShadeRun {
   std::uint32_t first;  // invocation
 };
 
-// Covered pixels of blocks, added to invocations.
+// Covered pixels of blocks, or their 2 x 2 quads, added to invocations.
 struct AddCovered {
   const VisibleBlock* blocks;
   std::size_t block_count;
   std::uint32_t enough;            // invocations after which no further block is begun
-  std::uint32_t* pixels;           // as Interpolate::pixels, with room for 32 past `enough`
-  ShadeRun* runs;                  // with room for as many
+  std::uint32_t* pixels;           // out: as Interpolate::pixels, with room for 32 past `enough`
+  std::uint32_t* live;             // out, of quads: ~0u where a pixel is covered, else 0; room as for pixels
+  ShadeRun* runs;                  // out: with room for as many
+  const float* block_depths;       // 16 a block, or null
+  float* depths;                   // out, unless that is null: of each invocation, room as for pixels
   std::uint32_t count, run_count;  // in and out
 };
 
@@ -140,7 +136,6 @@ struct Interpolate {
 struct StoreColors {
   const float* channels[4];     // with room for 16 elements past `count`; null: 0
   const std::uint32_t* pixels;  // of each invocation, index in the tile's memory
-  const std::uint32_t* stored;  // of each, ~0u or 0; null: all are
   std::uint32_t count;
   float* color;  // of the tile: RGBA of each pixel
 };
@@ -166,13 +161,15 @@ struct Kernels {
   TriangleMasks (*set_up_triangles)(const SetUpTriangles&);
   // Covers and depth-tests all triangles; leaves depth and visible.
   void (*cover)(const CoverTile&);
-  // Covers triangle `which` alone. With early_depth_test, pixels that fail it now are left out. Returns how many quads
-  // it wrote.
-  std::uint32_t (*cover_one)(const CoverTile&, std::uint32_t which, bool early_depth_test, CoveredQuad* out);
+  // Covers triangle `which` alone: blocks, and 16 depths each. With early_depth_test, pixels that fail it now are left
+  // out. Returns how many blocks there are; there is room for one more than a tile has, which may be written, too.
+  std::uint32_t (*cover_one)(const CoverTile&, std::uint32_t which, bool early_depth_test, VisibleBlock* blocks,
+                             float* depths);
   // Returns how many blocks it found.
   std::uint32_t (*collect_visible)(const CollectVisible&);
-  // Returns how many blocks it took.
+  // Return how many blocks they took. The first adds covered pixels, the second quads that have some.
   std::size_t (*add_covered)(AddCovered&);
+  std::size_t (*add_quads)(AddCovered&);
   void (*interpolate)(const Interpolate&);
   void (*store_colors)(const StoreColors&);
   // Stores go past the caches: a fence must follow the last one.

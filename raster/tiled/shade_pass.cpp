@@ -27,18 +27,10 @@ void TileWorker::shade_visible() {
   collect_visible();
   clock_.lap(Stage::raster);
 
-  if (draw_.module.uses_derivatives)
-    for (const VisibleBlock& visible : sorted_)
-      for (std::uint32_t quad = 0; quad < 4; ++quad) {
-        const std::uint32_t coverage = visible.coverage >> (4 * quad) & 15u;
-        if (coverage != 0) batch_.add_quad(visible.local, 4u * visible.block + quad, coverage);
-        if (batch_.full()) shade_batch();
-      }
-  else
-    for (std::size_t taken = 0; taken < sorted_.size();) {
-      taken += batch_.add_covered(&sorted_[taken], sorted_.size() - taken);
-      if (batch_.full()) shade_batch();
-    }
+  for (std::size_t taken = 0; taken < sorted_.size();) {
+    taken += batch_.add(&sorted_[taken], sorted_.size() - taken);
+    if (batch_.full()) shade_batch();
+  }
   if (batch_.count() > 0) shade_batch();
 }
 

@@ -8,9 +8,7 @@
 namespace twinshade::tiled {
 inline namespace TWINSHADE_ISA_NAMESPACE {
 
-template <bool all>
-TWINSHADE_INLINE void store_colors_if(const StoreColors& call) {
-  using U4 = Register<std::uint32_t, 4>;
+inline void store_colors(const StoreColors& call) {
   static constexpr float kZeros[8] = {};
   const float* channels[4];
   std::size_t step[4];
@@ -19,21 +17,9 @@ TWINSHADE_INLINE void store_colors_if(const StoreColors& call) {
     step[c] = call.channels[c] ? 1 : 0;
   }
   const std::uint32_t* const pixels = call.pixels;
-  const std::uint32_t* const stored = call.stored;
   float* const color = call.color;
-  const auto store = [&](std::size_t i, const Float4& rgba) TWINSHADE_LAMBDA {
-    float* const to = color + 4 * std::size_t{pixels[i]};
-    if constexpr (all) {
-      std::memcpy(to, &rgba, sizeof rgba);
-    } else {  // no branches: which ones are stored cannot be predicted
-      const U4 mask = registers::splat<std::uint32_t, 4>(stored[i]);
-      U4 before, after;
-      std::memcpy(&before, to, sizeof before);
-      std::memcpy(&after, &rgba, sizeof after);
-      after = (after & mask) | (before & ~mask);
-      std::memcpy(to, &after, sizeof after);
-    }
-  };
+  const auto store = [&](std::size_t i, const Float4& rgba)
+                         TWINSHADE_LAMBDA { std::memcpy(color + 4 * std::size_t{pixels[i]}, &rgba, sizeof rgba); };
   const std::size_t count = call.count;
   std::size_t begin = 0;
   if constexpr (Simd<float, 8>::whole)
@@ -53,13 +39,6 @@ TWINSHADE_INLINE void store_colors_if(const StoreColors& call) {
     else
       for (std::size_t i = 0; begin + i < count; ++i) store(begin + i, rgba[i]);
   }
-}
-
-inline void store_colors(const StoreColors& call) {
-  if (call.stored)
-    store_colors_if<false>(call);
-  else
-    store_colors_if<true>(call);
 }
 
 }  // namespace TWINSHADE_ISA_NAMESPACE

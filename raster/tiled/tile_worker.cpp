@@ -9,7 +9,7 @@ TileWorker::TileWorker(const Draw& draw)
       batch_(draw),
       depth_(std::size_t(draw.grid.tile_size) * draw.grid.tile_size),
       visible_(std::size_t(draw.grid.tile_size) * draw.grid.tile_size),
-      color_(std::size_t(draw.grid.tile_size) * draw.grid.tile_size * 4),
+      color_((std::size_t(draw.grid.tile_size) * draw.grid.tile_size + 1) * 4),
       primitive_id_(std::size_t(draw.grid.tile_size) * draw.grid.tile_size) {
   tile_.vertices = &draw.vertices;
   tile_.size = draw.grid.tile_size;

@@ -1,7 +1,7 @@
 // What is visible in a tile, by blocks of 4 x 4 pixels, and its pixels one after another.
 #pragma once
 
-#if defined(__AVX512F__)
+#if defined(__AVX2__)
 #include <immintrin.h>
 #endif
 
@@ -54,6 +54,12 @@ struct SetBits {
 };
 inline constexpr SetBits kSetBits;
 
+#if defined(__AVX2__)
+TWINSHADE_INLINE Int8 set_bits(std::uint32_t m) {
+  return (Int8)_mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(kSetBits.of[m])));
+}
+#endif
+
 // Writes `first` + i for each bit i that is set, and up to 16 words in all. Returns how many bits were.
 TWINSHADE_INLINE std::uint32_t write_set_bits(std::uint32_t first, std::uint32_t bits, std::uint32_t* to) {
 #if defined(__AVX512F__)
@@ -64,9 +70,13 @@ TWINSHADE_INLINE std::uint32_t write_set_bits(std::uint32_t first, std::uint32_t
 #else
   const std::uint32_t low = bits & 0xffu, count = static_cast<std::uint32_t>(__builtin_popcount(low));
   const auto write = [](std::uint32_t from, std::uint32_t m, std::uint32_t* numbers) TWINSHADE_LAMBDA {
+#if defined(__AVX2__)
+    registers::store(numbers, Register<std::uint32_t, 8>(set_bits(m)) + from);
+#else
     std::uint8_t set[8];
     std::memcpy(set, kSetBits.of[m], sizeof set);
     for (int i = 0; i < 8; ++i) numbers[i] = from + set[i];
+#endif
   };
   write(first, low, to);
   write(first + 8, bits >> 8, to + count);
@@ -74,9 +84,28 @@ TWINSHADE_INLINE std::uint32_t write_set_bits(std::uint32_t first, std::uint32_t
 #endif
 }
 
-inline std::size_t add_covered(AddCovered& call) {
+// Writes the numbers, of sixteen, whose bits are set, and up to 16 in all.
+TWINSHADE_INLINE void write_where_set(const float* numbers, std::uint32_t bits, float* to) {
+#if defined(__AVX512F__)
+  _mm512_storeu_ps(to, _mm512_maskz_compress_ps(static_cast<__mmask16>(bits), _mm512_loadu_ps(numbers)));
+#else
+  const auto write = [](const float* eight, std::uint32_t m, float* out) TWINSHADE_LAMBDA {
+#if defined(__AVX2__)
+    registers::store(out, Float8(registers::permute8(Int8(registers::load<8>(eight)), set_bits(m))));
+#else
+    for (int i = 0; i < 8; ++i) out[i] = eight[kSetBits.of[m][i]];
+#endif
+  };
+  write(numbers, bits & 0xffu, to);
+  write(numbers + 8, bits >> 8, to + __builtin_popcount(bits & 0xffu));
+#endif
+}
+
+// add(block, its number, invocations so far) for blocks until there are enough, and a run for each primitive; returns
+// how many invocations it added.
+template <class Add>
+TWINSHADE_INLINE std::size_t add_blocks(AddCovered& call, Add add) {
   const VisibleBlock* const blocks = call.blocks;
-  std::uint32_t* const pixels = call.pixels;
   ShadeRun* const runs = call.runs;
   const std::size_t block_count = call.block_count;
   const std::uint32_t enough = call.enough;
@@ -85,11 +114,57 @@ inline std::size_t add_covered(AddCovered& call) {
   for (; taken < block_count && count < enough; ++taken) {
     const VisibleBlock block = blocks[taken];
     if (run_count == 0 || runs[run_count - 1].local != block.local) runs[run_count++] = {block.local, count};
-    count += write_set_bits(16u * block.block, block.coverage, pixels + count);
+    count += add(block, taken, count);
   }
   call.count = count;
   call.run_count = run_count;
   return taken;
+}
+
+template <bool with_depths>
+TWINSHADE_INLINE std::size_t add_covered_if(AddCovered& call) {
+  std::uint32_t* const pixels = call.pixels;
+  const float* const block_depths = call.block_depths;
+  float* const depths = call.depths;
+  return add_blocks(call, [=](VisibleBlock block, std::size_t number, std::uint32_t count) TWINSHADE_LAMBDA {
+    if constexpr (with_depths) write_where_set(block_depths + 16 * number, block.coverage, depths + count);
+    return write_set_bits(16u * block.block, block.coverage, pixels + count);
+  });
+}
+
+inline std::size_t add_covered(AddCovered& call) {
+  return call.block_depths ? add_covered_if<true>(call) : add_covered_if<false>(call);
+}
+
+// [m]: words of all bits where m has its bits 0 to 3.
+alignas(64) inline constexpr std::uint32_t kWords[16][4] = {
+    {0, 0, 0, 0},     {~0u, 0, 0, 0},     {0, ~0u, 0, 0},     {~0u, ~0u, 0, 0},    {0, 0, ~0u, 0},   {~0u, 0, ~0u, 0},
+    {0, ~0u, ~0u, 0}, {~0u, ~0u, ~0u, 0}, {0, 0, 0, ~0u},     {~0u, 0, 0, ~0u},    {0, ~0u, 0, ~0u}, {~0u, ~0u, 0, ~0u},
+    {0, 0, ~0u, ~0u}, {~0u, 0, ~0u, ~0u}, {0, ~0u, ~0u, ~0u}, {~0u, ~0u, ~0u, ~0u}};
+
+template <bool with_depths>
+TWINSHADE_INLINE std::size_t add_quads_if(AddCovered& call) {
+  using U = Register<std::uint32_t, 4>;
+  std::uint32_t* const pixels = call.pixels;
+  std::uint32_t* const live = call.live;
+  const float* const block_depths = call.block_depths;
+  float* const depths = call.depths;
+  return add_blocks(call, [=](VisibleBlock block, std::size_t number, std::uint32_t count) TWINSHADE_LAMBDA {
+    const std::uint32_t before = count;
+    for (std::uint32_t quad = 0; quad < 4; ++quad) {  // all are written; those that are not covered, over
+      const std::uint32_t coverage = block.coverage >> (4 * quad) & 15u;
+      registers::store(pixels + count, U{0, 1, 2, 3} + (16u * block.block + 4 * quad));
+      registers::store(live + count, registers::load<4>(kWords[coverage]));
+      if constexpr (with_depths)
+        registers::store(depths + count, registers::load<4>(block_depths + 16 * number + 4 * quad));
+      count += coverage == 0 ? 0 : 4;
+    }
+    return count - before;
+  });
+}
+
+inline std::size_t add_quads(AddCovered& call) {
+  return call.block_depths ? add_quads_if<true>(call) : add_quads_if<false>(call);
 }
 
 }  // namespace TWINSHADE_ISA_NAMESPACE

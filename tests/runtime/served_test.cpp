@@ -79,8 +79,8 @@ void main() {
 }
 )";
 
-// Sums of two taps, of three layers from each of three on: all there; some before the first or past the last layer; alike for
-// all lanes.
+// Sums of two taps, of three layers from each of three on: all there; some before the first or past the last layer;
+// alike for all lanes.
 constexpr const char* kThrees = R"(
 #include "exact/bilinear.glsl"
 uniform sampler2DArray maps;

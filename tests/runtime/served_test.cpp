@@ -387,9 +387,10 @@ TEST_CASE("in double the colours of all layers are sums in double, side by side 
   const auto entry = std::find_if(module.entries, module.entries + module.entry_count,
                                   [](const ShaderEntry& e) { return e.number == Number::float64; });
   REQUIRE(entry != module.entries + module.entry_count);
-  constexpr std::uint32_t kRows = 16;
+  constexpr std::uint32_t kRows = 16, kOutputs = 4 * 3 * kColors * kRows;
+  REQUIRE(module.output_components * kRows == kOutputs);
   struct alignas(64) Arrays {
-    double inputs[3 * kRows], outputs[9 * kColors * kRows], frag_coord[4 * kRows], depth[kRows];
+    double inputs[3 * kRows], outputs[kOutputs], frag_coord[4 * kRows], depth[kRows];
     std::uint32_t live[kRows], front[kRows], id[kRows], kept[kRows];
   };
   const auto run = [&](const TextureView& view) {
@@ -402,7 +403,7 @@ TEST_CASE("in double the colours of all layers are sums in double, side by side 
     }
     entry->shade(ShaderData{nullptr, &view, nullptr},
                  ShadeCall{kRows, kRows, a.inputs, a.frag_coord, a.live, a.front, a.id, a.outputs, a.depth, a.kept});
-    return std::vector<double>(a.outputs, a.outputs + 9 * kColors * kRows);
+    return std::vector<double>(a.outputs, a.outputs + kOutputs);
   };
   const auto apart = run(array.view);
   CHECK(apart == run(together));

@@ -57,6 +57,31 @@ TEST_CASE("lanes and instruction sets give the same bits") {
     }
 }
 
+TEST_CASE("shading whole quads changes nothing for shaders without derivatives, in order or not") {
+  for (const AttributeMode mode : {AttributeMode::exact, AttributeMode::native})
+    for (const ShaderModule* module :
+         {&test::echo_module(), &test::built_ins_module(), &test::discard_module(), &test::frag_depth_module()}) {
+      const Bundle bundle = test::torture_bundle(177, 131, 900, 9);
+      ShaderModule quads = *module;
+      quads.uses_derivatives = true;
+      CAPTURE(module->name);
+      CAPTURE(int(mode));
+      DrawOptions options;
+      options.attributes = mode;
+      options.isa = Isa::baseline;
+      options.number = Number::lanes4;
+      const std::string expected = hash(bundle, *module, options);
+      for (const ShaderEntry entry : test::entries_of(nullptr, nullptr)) {
+        if (entry.isa > machine_isa() || entry.number == Number::float64) continue;
+        CAPTURE(int(entry.isa));
+        CAPTURE(int(entry.number));
+        options.isa = entry.isa;
+        options.number = entry.number;
+        CHECK(hash(bundle, quads, options) == expected);
+      }
+    }
+}
+
 TEST_CASE("thread counts and tile sizes give the same bits") {
   for (const AttributeMode mode : {AttributeMode::exact, AttributeMode::native})
     for (const ShaderModule* module : {&test::echo_module(), &test::built_ins_module(), &test::discard_module(),

@@ -128,8 +128,8 @@ TWINSHADE_FUNCTION void exact_fetch_layers(Sampler2DArray<Real> maps, const Exac
   detail::filter_layers<count>(view.texels, detail::TapTable<N::width, 4>(detail::locate<N>(view, taps)), layers.e);
 }
 
-// Column k of what begins at each of three layers.
 namespace detail {
+// Colour k of a run of layers.
 template <class F>
 TWINSHADE_FUNCTION vec<F, 3>& column(vec<F, 3>& one, int) {
   return one;

@@ -1,6 +1,6 @@
 // Bilinear filters of lanes. Sums are done on whole texels, four lanes' RGBA to a register group or one lane's floats
-// to a row, and transposed once, where GLSL as written would transpose each texel. Where all lanes read the same four
-// texels there is nothing to transpose at all.
+// to a row, and transposed once, where GLSL as written would transpose each texel. Where all lanes read the same
+// texels there may be nothing to transpose at all.
 #pragma once
 
 #include "cpu_shaders/runtime/texture.h"
@@ -345,19 +345,18 @@ __attribute__((noinline)) TWINSHADE_WHOLE void filter_runs(const float* texels, 
 // Floats of a texel with the colours of `count` layers, as LayerOrder::colors_together lays them.
 constexpr int color_floats(int count) { return count / 5 * 16 + (count % 5 == 0 ? 0 : count % 5 == 1 ? 4 : 16); }
 
-// Where this is fewer instructions than sums lane by lane (by count: 23 a channel against 17 a float and 128): with 16
-// lanes a number from memory is part of the product.
+// Whether filter_colors broadcasts numbers that all lanes read: with registers of 16 they are part of the product; with
+// 8 where that is fewer instructions than sums lane by lane, by count, by more than it takes to ask.
 template <int count, int W>
-inline constexpr bool kOnce = W == 16 || (W == 8 && count <= 16);
+inline constexpr bool kBroadcast = W == 16 || (W == 8 && 69 * count + 50 < 17 * color_floats(count) + 128);
 
-// The same where all lanes read the same texels: their numbers, times each lane's weights.
-template <int count, int W, int T>
-TWINSHADE_FUNCTION void filter_colors_once(const float* texels, const TapTable<W, T>& taps,
+// filter_colors where all lanes read the same eight texels: their numbers, times each lane's weights.
+template <int count, int W>
+TWINSHADE_FUNCTION void filter_colors_once(const float* texels, const TapTable<W, 8>& taps,
                                            arr<vec<Simd<float, W>, 3>, count>& colors) {
-  using V = Register<float, W>;
-  const float* texel[T];
-  V weight[T];
-  unrolled<T>([&](auto tap) TWINSHADE_LAMBDA {
+  const float* texel[8];
+  Register<float, W> weight[8];
+  unrolled<8>([&](auto tap) TWINSHADE_LAMBDA {
     texel[tap] = texels + std::size_t{taps.at[tap][0]} * 2;
     __asm__("" : "+r"(texel[tap]));  // g++ would put eight addresses together in registers, to take them apart again
     weight[tap] = registers::load<W>(taps.weight[tap]);
@@ -369,10 +368,8 @@ TWINSHADE_FUNCTION void filter_colors_once(const float* texels, const TapTable<W
     const auto four = [&](int tap) TWINSHADE_LAMBDA {
       return (product(tap) + product(tap + 1)) + (product(tap + 2) + product(tap + 3));
     };
-    if constexpr (T == 4)
-      store_lanes<W>(colors, channel, 0, four(0));
-    else
-      store_lanes<W>(colors, channel, 0, V(four(0) + four(4)));
+    const Register<float, W> sum = four(0) + four(4);
+    store_lanes<W>(colors, channel, 0, sum);
   });
 }
 
@@ -380,7 +377,7 @@ TWINSHADE_FUNCTION void filter_colors_once(const float* texels, const TapTable<W
 template <int count, int W, int T>
 __attribute__((noinline)) TWINSHADE_WHOLE void filter_colors(const float* texels, const TapTable<W, T>& taps,
                                                              arr<vec<Simd<float, W>, 3>, count>& colors) {
-  if constexpr (Simd<float, W>::whole && T == 8 && kOnce<count, W>)
+  if constexpr (Simd<float, W>::whole && T == 8 && kBroadcast<count, W>)
     if (taps.same_for_all_lanes()) return filter_colors_once(texels, taps, colors);
   filter_floats<color_floats(count), W>(texels, taps, TexelStart(), 0,
                                         [&](int first_lane, auto number, const auto& lanes) TWINSHADE_LAMBDA {

@@ -35,7 +35,6 @@ std::size_t Batch::add(const VisibleBlock* blocks, std::size_t block_count, cons
 }
 
 void Batch::clear() {
-  tested_ = false;
   const std::uint32_t first = shaded(), left = count_ - first;
   std::copy_n(pixels_ + first, left, pixels_);
   std::copy_n(live_ + first, left, live_);
@@ -129,7 +128,6 @@ void Batch::test_depth_of(float* tile_depth, std::uint32_t* tile_visible) {
 }
 
 void Batch::test_depth(float* tile_depth, std::uint32_t* tile_visible) {
-  tested_ = true;
   if (draw_.module.writes_depth)
     test_depth_of<true>(tile_depth, tile_visible);
   else
@@ -149,7 +147,7 @@ void Batch::store(float* tile_color) const {
     call.channels[c] = outputs + std::size_t(draw_.bound.color_first + c) * kStride;
   call.pixels = pixels_;
   std::uint32_t pixels[kBatchSize];
-  if (quads() || tested_) {  // those that are not stored go to a pixel after the tile's: no branches
+  if (quads() || draw_.in_order()) {  // those that are not stored go to a pixel after the tile's: no branches
     const std::uint32_t spare = draw_.grid.tile_size * draw_.grid.tile_size;
     for (std::uint32_t k = 0; k < shaded(); ++k) pixels[k] = (pixels_[k] & live_[k]) | (spare & ~live_[k]);
     call.pixels = pixels;

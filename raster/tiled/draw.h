@@ -80,7 +80,6 @@ class Batch {
   const Draw& draw_;
   std::uint32_t tile_x_ = 0, tile_y_ = 0;
   std::uint32_t count_ = 0, run_count_ = 0;
-  bool tested_ = false;                                        // live_ says which are stored
   alignas(64) std::uint32_t pixels_[kStride], live_[kStride];  // of each invocation
   alignas(64) float depths_[kStride];                          // of each, where test_depth follows
   ShadeRun runs_[kStride];

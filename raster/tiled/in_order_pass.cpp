@@ -13,8 +13,8 @@ void TileWorker::shade_in_order() {
   const bool early_depth_test = !draw_.module.writes_depth && !draw_.module.has_side_effects;
   const std::size_t pixels = std::size_t(tile_.size) * tile_.size;
   std::fill_n(color_.data(), 4 * pixels, 0.0f);
-  covered_.resize(pixels / 16 + 1);
-  covered_depths_.resize(pixels + 16);
+  covered_.resize(pixels / 16);
+  covered_depths_.resize(pixels);
   for (std::uint32_t which = 0; which < tile_.count; ++which) {
     std::uint32_t count;
     {

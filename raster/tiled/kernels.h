@@ -161,8 +161,8 @@ struct Kernels {
   TriangleMasks (*set_up_triangles)(const SetUpTriangles&);
   // Covers and depth-tests all triangles; leaves depth and visible.
   void (*cover)(const CoverTile&);
-  // Covers triangle `which` alone: blocks, and 16 depths each. With early_depth_test, pixels that fail it now are left
-  // out. Returns how many blocks there are; there is room for one more than a tile has, which may be written, too.
+  // Covers triangle `which` alone: blocks, and 16 depths each, with room for all of a tile. With early_depth_test,
+  // pixels that fail it now are left out. Returns how many blocks there are; one more may have been written.
   std::uint32_t (*cover_one)(const CoverTile&, std::uint32_t which, bool early_depth_test, VisibleBlock* blocks,
                              float* depths);
   // Returns how many blocks it found.

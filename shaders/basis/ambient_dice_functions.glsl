@@ -5,7 +5,7 @@
 // Bit 0 of i: the first coordinate that is not zero is negative; bit 1: the second one. Opposite vertices: i and i ^ 3.
 // Tangent frame of vertex v, for gradients: e1 = axis of its zero coordinate, e2 = v x e1.
 
-// Coefficients i.x, i.y and i.z at once: an includer who can do better than three reads defines it.
+// Coefficients i.x, i.y and i.z at once, i the name of an ivec3: an includer who can do better than three reads defines it.
 #ifndef COEF_ONES
 #define COEF_ONES(i, ones) ones[0] = COEF(i.x); ones[1] = COEF(i.y); ones[2] = COEF(i.z)
 #endif

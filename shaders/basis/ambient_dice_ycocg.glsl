@@ -17,7 +17,7 @@ vec3 basis_irradiance(vec3 n) {
   COEF_ONES(weights.vertex, lumas);
   precise float luma = exact_dot(lumas[0], weights.first) + exact_dot(lumas[1], weights.second);
   luma += exact_dot(lumas[2], weights.third);
-  ivec3 chroma_place = weights.vertex + 12;
+  ivec3 chroma_place = triangle.vertex + 12;
   vec3 chromas[3];
   COEF_ONES(chroma_place, chromas);
   precise vec3 chroma = chromas[0] * triangle.barycentric.x;

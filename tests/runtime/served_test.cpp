@@ -359,7 +359,8 @@ TEST_CASE("fetches of all layers give the bits of their GLSL, side by side in me
 
 TEST_CASE(
     "fetches of all layers' colours give the bits of their GLSL, side by side in memory or not, all there or not") {
-  for (const int count : {6, 9})  // one line and a layer that is left, two lines
+  // One line and a layer that is left, two lines, four; few and many for broadcasts.
+  for (const auto& [count, spread] : {std::pair(6, 1.0f), {6, 0.001f}, {9, 0.001f}, {17, 0.001f}})
     for (const std::int32_t layers : {1, 6, 9, 10, 20}) {
       CAPTURE(count);
       CAPTURE(layers);
@@ -367,7 +368,7 @@ TEST_CASE(
       SideBySide fives;
       const TextureView together = fives.colors(array.view);
       for (const TextureView& view : {array.view, together}) {
-        const auto inputs = random_rows(1000, count % 2 == 0 ? 1.0f : 0.001f);
+        const auto inputs = random_rows(1000, spread);
         const auto numbers = {Number::lanes4, Number::lanes8, Number::lanes16, Number::scalar};
         check_served(colors_text(count), "exact_fetch_colors", inputs, std::array{view}, std::array{array.view},
                      numbers);
@@ -438,6 +439,8 @@ TEST_CASE("the reflection says how the layers of a sampler should lie") {
   CHECK(order(taps + "exact_fetch_layers(maps, taps, layers); color = layers[1]; }\n") == LayerOrder::together);
   const std::string threes = "exact_fetch_threes(maps, taps, taps, ivec3(0), threes); color.rgb = threes[0][1]; }\n";
   CHECK(order(taps + threes) == LayerOrder::together);
+  CHECK(order(taps + "vec3 ones[3]; exact_fetch_ones(maps, taps, taps, ivec3(0), ones); color.rgb = ones[1]; }\n") ==
+        LayerOrder::together);
   CHECK(order(taps + "exact_fetch_colors(maps, taps, taps, colors); color.rgb = colors[1]; }\n") ==
         LayerOrder::colors_together);
   CHECK(order(five + "color = vec4(colors[1], 1.0); }\n") == LayerOrder::colors_together);

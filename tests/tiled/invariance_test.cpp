@@ -2,8 +2,10 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
+#include <utility>
 
 #include "base/parallel.h"
 #include "cpu_shaders/machine.h"
@@ -28,6 +30,8 @@ std::string hash(const Bundle& bundle, const ShaderModule& module, DrawOptions o
   const std::size_t pixels = std::size_t(frame.width) * frame.height;
   for (std::size_t i = 0; i < frame.attributes.size(); ++i)
     all.color.push_back(frame.coverage[i % pixels] ? frame.attributes[i] : 0);
+  for (const double c : frame.color64)
+    for (const float half : std::bit_cast<std::array<float, 2>>(c)) all.color.push_back(half);
   return frame_hash(all);
 }
 
@@ -68,16 +72,13 @@ TEST_CASE("shading whole quads changes nothing for shaders without derivatives, 
       CAPTURE(int(mode));
       DrawOptions options;
       options.attributes = mode;
-      options.isa = Isa::baseline;
-      options.number = Number::lanes4;
-      const std::string expected = hash(bundle, *module, options);
       for (const ShaderEntry entry : test::entries_of(nullptr, nullptr)) {
-        if (entry.isa > machine_isa() || entry.number == Number::float64) continue;
+        if (entry.isa > machine_isa()) continue;
         CAPTURE(int(entry.isa));
         CAPTURE(int(entry.number));
         options.isa = entry.isa;
         options.number = entry.number;
-        CHECK(hash(bundle, quads, options) == expected);
+        CHECK(hash(bundle, quads, options) == hash(bundle, *module, options));
       }
     }
 }
@@ -115,21 +116,29 @@ TEST_CASE("derivatives are differences within a quad of the attribute's plane") 
     values[4 * v] = corners[v][0] + corners[v][1];
     values[4 * v + 1] = corners[v][1];
   }
-  const Frame frame = draw_tiled(bundle, test::derivatives_module(), {});
-  for (std::size_t p = 0; p < 64 * 64; ++p) {
-    CHECK(frame.color[4 * p] == doctest::Approx(1.0 / 64).epsilon(1e-4));
-    CHECK(frame.color[4 * p + 1] == doctest::Approx(1.0 / 64).epsilon(1e-4));
-    CHECK(frame.color[4 * p + 2] == doctest::Approx((double(p % 64) + double(p / 64) + 1) / 64).epsilon(1e-4));
+  ShaderModule in_order = test::derivatives_module();
+  in_order.discards = true;
+  for (const ShaderModule* module : {&test::derivatives_module(), &std::as_const(in_order)}) {
+    const Frame frame = draw_tiled(bundle, *module, {});
+    for (std::size_t p = 0; p < 64 * 64; ++p) {
+      CHECK(frame.color[4 * p] == doctest::Approx(1.0 / 64).epsilon(1e-4));
+      CHECK(frame.color[4 * p + 1] == doctest::Approx(1.0 / 64).epsilon(1e-4));
+      CHECK(frame.color[4 * p + 2] == doctest::Approx((double(p % 64) + double(p / 64) + 1) / 64).epsilon(1e-4));
+    }
   }
 }
 
-TEST_CASE("without derivatives there are no helpers but those that fill up a tile's last vector") {
+TEST_CASE("without derivatives there are no helpers but those that fill up a tile's last vector, in order or not") {
   const Bundle bundle = test::torture_bundle(160, 128, 500, 6);
-  const Frame frame = draw_tiled(bundle, test::helpers_module(), {});
-  float most = 0;
-  for (std::size_t p = 0; p < frame.coverage.size(); ++p)
-    if (frame.coverage[p]) most = std::max(most, frame.color[4 * p + 3]);
-  CHECK(most < 16);
+  ShaderModule in_order = test::helpers_module();
+  in_order.discards = true;
+  for (const ShaderModule* module : {&test::helpers_module(), &std::as_const(in_order)}) {
+    const Frame frame = draw_tiled(bundle, *module, {});
+    float most = 0;
+    for (std::size_t p = 0; p < frame.coverage.size(); ++p)
+      if (frame.coverage[p]) most = std::max(most, frame.color[4 * p + 3]);
+    CHECK(most < 16);
+  }
 }
 
 TEST_CASE("tiles are large where each thread has many, unless what the shader writes depends on their size") {

@@ -24,7 +24,7 @@ struct BakeVerb {
     const Output output(common);
     require_writable_file(file);
     output.require_not_read(files_read(subject, shading), file);
-    const Subject ready = load_subject(subject, shading, common, output);
+    const Subject ready = load_subject(subject, shading, common, output, file);
     write_bundle(file, ready.bundle);
 
     const Bundle& bundle = ready.bundle;

@@ -48,7 +48,7 @@ struct RenderVerb {
     const bool traced = shading.shader.empty() && shading.techniques.front() == kReferenceTechnique;
     if (traced && backend != "cpu") throw UserError("technique reference has no shader: the cpu alone draws it");
     Subject ready;
-    if (!traced) ready = load_subject(subject, shading, common, output);
+    if (!traced) ready = load_subject(subject, shading, common, output, file);
     const Shading shader = traced ? Shading{kReferenceTechnique, "", "", {}} : load_shadings(shading, ready).front();
     DrawOptions options;
     options.attributes = attributes;
@@ -90,6 +90,7 @@ struct RenderVerb {
     require_frame_memory(subject.width, subject.height, "cpu");
     require_scene_memory(subject);
     const Scene scene = load_scene(subject.scene, subject.triangles);
+    output.require_not_read(scene.files, file);
     for (const std::string& note : scene.notes) output.note(subject.scene + ": " + note);
     Environment environment = load_light(subject);
     if (shading.reference_order > 0)

@@ -263,7 +263,7 @@ std::vector<std::string> files_read(const SubjectOptions& options, const Shading
 }
 
 Subject load_subject(const SubjectOptions& options, const ShadingOptions& shading, const CommonOptions& common,
-                     const Output& output) {
+                     const Output& output, const std::string& written) {
   // Names and shaders are checked before anything that takes long.
   const bool own_shader = !shading.shader.empty();
   const std::string text = own_shader ? load_fragment_shader(shading.shader).text : "";
@@ -286,6 +286,7 @@ Subject load_subject(const SubjectOptions& options, const ShadingOptions& shadin
     require_frame_memory(options.width, options.height, "cpu");
     require_scene_memory(options);
     const Scene scene = load_scene(options.scene, options.triangles);
+    output.require_not_read(scene.files, written);
     for (const std::string& note : scene.notes) output.note(options.scene + ": " + note);
     choose(
         subject, chosen, shading,

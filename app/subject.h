@@ -47,15 +47,15 @@ std::vector<const TechniqueInfo*> chosen_techniques(const ShadingOptions& option
 // The names that are neither empty nor built in: files.
 std::vector<std::string> files_among(std::vector<std::string> names, const std::vector<std::string>& built_in);
 // The files that these options name, and those that the shader includes: what is written must not replace them. Not the
-// images and buffers that a model names. UserError where the shader is none.
+// images and buffers that a model names (Scene::files has them). UserError where the shader is none.
 std::vector<std::string> files_read(const SubjectOptions& options, const ShadingOptions& shading);
 
 // Loads, lights and bakes, or reads the bundle; says aloud what the loader had to say. The bundle carries the
 // coefficients of the chosen techniques as --light says, or, for a user's shader, those that it names
 // (coefficients_BASIS, volume_BASIS); nothing else is baked. UserError where a technique that was named cannot be lit
-// so.
+// so, and where `written` or what the output writes would replace a file that the model is read from.
 Subject load_subject(const SubjectOptions& options, const ShadingOptions& shading, const CommonOptions& common,
-                     const Output& output);
+                     const Output& output, const std::string& written = {});
 
 // The environment, or the blend of two, rotated.
 Environment load_light(const SubjectOptions& options);

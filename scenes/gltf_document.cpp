@@ -113,6 +113,7 @@ struct GltfDocument::Layout {
 };
 
 GltfDocument::GltfDocument(const std::string& path) : path_(path) {
+  files_.push_back(path);
   const std::string content = read_file(path);
   if (content.empty()) fail("the file is empty");
   read_container(content);
@@ -211,7 +212,10 @@ void GltfDocument::read_buffers() {
     std::string bytes, file;
     if (buffer.contains("uri")) {
       bytes = resource(buffer["uri"].get<std::string>(), what, &file);
-      if (!file.empty()) bytes = read_file(file);
+      if (!file.empty()) {
+        files_.push_back(file);
+        bytes = read_file(file);
+      }
     } else if (i == 0) {
       bytes = binary_chunk_;
     }

@@ -18,6 +18,8 @@ class GltfDocument {
   [[noreturn]] void fail(const std::string& what) const;  // UserError: "path: what"
 
   const std::string& path() const { return path_; }
+  // This file and its buffers.
+  const std::vector<std::string>& files() const { return files_; }
   // Element `index` of the top-level array `kind`, as in element("nodes", 3).
   const nlohmann::json& element(const char* kind, std::size_t index) const;
   std::size_t count(const char* kind) const;
@@ -54,7 +56,7 @@ class GltfDocument {
   std::string path_;
   nlohmann::json root_;
   std::string_view binary_chunk_;  // of a .glb, while reading
-  std::vector<std::string> buffers_;
+  std::vector<std::string> buffers_, files_;
 };
 
 // A number, or `fallback` where the key is missing.

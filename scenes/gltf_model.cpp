@@ -48,6 +48,7 @@ class Reader {
 
  private:
   void read_all() {
+    model_.files = document_.files();
     find_world_transforms();
     for (std::size_t node : order_) {
       if (document_.element("nodes", node).contains("mesh")) read_mesh_node(node);
@@ -334,6 +335,7 @@ class Reader {
         std::make_tuple(gltf_index(document_.element("textures", std::size_t(texture)), "source"), is_normal, scale);
     if (const auto known = images_.find(key); known != images_.end()) return known->second;
     const GltfDocument::ImageSource source = document_.image_of_texture(std::size_t(texture));
+    if (!source.file.empty()) model_.files.push_back(source.file);
     const DecodedImage decoded =
         source.file.empty() ? decode_image_memory(source.bytes, source.name) : decode_image_file(source.file);
     model_.images.push_back(is_normal ? normal_image(decoded, scale) : albedo_image(decoded));

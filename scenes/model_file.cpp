@@ -41,6 +41,7 @@ class Assembly {
 
   Scene scene() {
     scene_.name = path_;
+    scene_.files = std::move(model_.files);
     scene_.notes = std::move(model_.notes);
     scene_.images = std::move(model_.images);
     scene_.materials = model_.materials;

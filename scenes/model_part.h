@@ -27,6 +27,7 @@ struct Model {
   std::vector<ModelPart> parts;
   std::vector<Material> materials;
   std::vector<Image> images;
+  std::vector<std::string> files;  // as Scene::files
   std::vector<std::string> notes;
   std::optional<Camera> camera;
   double cos_crease = 1;  // for parts without normals: the cosine of the angle up to which edges are smooth

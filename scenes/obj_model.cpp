@@ -35,6 +35,7 @@ class Reader {
   explicit Reader(const std::string& path) : path_(path) {}
 
   Model read() {
+    model_.files.push_back(path_);
     check_material_libraries(read_file(path_));
     Assimp::Importer importer;
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
@@ -56,7 +57,8 @@ class Reader {
       std::string name = line.substr(7);
       while (!name.empty() && (name.back() == '\r' || name.back() == ' ')) name.pop_back();
       std::error_code code;
-      if (!fs::exists(texture_path(path_, name), code))
+      model_.files.push_back(texture_path(path_, name));
+      if (!fs::exists(model_.files.back(), code))
         model_.notes.push_back("material library " + name + " is missing: its materials are plain");
     }
   }
@@ -85,6 +87,7 @@ class Reader {
     const std::string path = texture_path(path_, name);
     const auto key = std::make_pair(path, is_normal);
     if (const auto known = images_.find(key); known != images_.end()) return known->second;
+    model_.files.push_back(path);
     const DecodedImage decoded = decode_image_file(path);
     if (is_normal && !looks_like_normal_map(decoded)) {
       model_.notes.push_back("bump map " + name + " is a height field, not a normal map: ignored");

@@ -48,6 +48,7 @@ struct Scene {
   std::vector<glm::vec4> clip_positions;
   bool procedural_coefficients = false;  // light is not baked; coefficients are smooth functions of the vertex
 
+  std::vector<std::string> files;  // that a model was read from: itself, its buffers, images and material libraries
   std::vector<std::string> notes;  // said aloud on load: "no UVs: normal map ignored" ...
 
   std::size_t triangle_count() const { return indices.size() / 3; }

@@ -201,6 +201,34 @@ TEST_CASE("nothing is written over what is read, nor two results to one file") {
   CHECK(!fs::exists(fresh));
 }
 
+TEST_CASE("nothing is written over what a model names") {
+  const Folder folder;
+  const std::string image = folder / "colour.png", library = folder.file("m.mtl", "newmtl a\nmap_Kd colour.png\n");
+  REQUIRE(run_twinshade({"render", "quad", "--size", "16x16", "-o", image}).code == 0);
+  const std::string picture = read_file(image);
+  const std::string model = folder.file(
+      "m.obj", "mtllib m.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+  const std::vector<std::string> render{"render", model, "--size", "16x16"}, bake{"bake", model, "--size", "16x16"};
+  for (const auto& [verb, options] :
+       {std::pair(render, std::vector<std::string>{"-o", image}),
+        std::pair(render, std::vector<std::string>{"--json", library}),
+        std::pair(render, std::vector<std::string>{"--technique", "reference", "-o", image}),
+        std::pair(bake, std::vector<std::string>{"-o", folder / "new.bundle", "--json", image}),
+        std::pair(bake, std::vector<std::string>{"-o", library})}) {
+    std::vector<std::string> arguments = verb;
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Run run = run_twinshade(arguments);
+    CAPTURE(run.err);
+    CHECK(run.code == 2);
+    CHECK(run.err.find("which is read: name another file") != std::string::npos);
+  }
+  CHECK(read_file(image) == picture);
+  CHECK(!fs::exists(folder / "new.bundle"));
+  std::vector<std::string> elsewhere = render;
+  elsewhere.insert(elsewhere.end(), {"-o", folder / "new.png"});
+  CHECK(run_twinshade(elsewhere).code == 0);
+}
+
 TEST_CASE("JUnit XML goes to stdout if asked, alone, but not beside JSON") {
   const Folder folder;
   const std::vector<std::string> eval{

@@ -4,6 +4,7 @@
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "base/file.h"
 #include "scenes/gltf_document.h"
@@ -18,6 +19,7 @@
 using namespace twinshade;
 using glm::dvec3;
 using nlohmann::json;
+using twinshade::test::file_names;
 using twinshade::test::has_note;
 
 namespace {
@@ -180,6 +182,8 @@ TEST_CASE("images: sRGB decoded, bottom row first, normals unit with their scale
   };
   for (int kind : {0, 1}) {
     const Scene scene = load(kind);
+    CHECK(file_names(scene) == (kind == 0 ? std::set<std::string>{"m.gltf", "m.bin", "colour map.png", "n.png"}
+                                          : std::set<std::string>{"m.glb"}));
     REQUIRE(scene.materials.size() == 1);
     const Image &albedo = scene.images[std::size_t(scene.materials[0].albedo_image)],
                 &normal = scene.images[std::size_t(scene.materials[0].normal_image)];

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <set>
 
 #include "base/file.h"
 #include "scenes/scene.h"
@@ -10,6 +11,7 @@
 
 using namespace twinshade;
 using glm::dvec3;
+using twinshade::test::file_names;
 using twinshade::test::has_note;
 
 namespace {
@@ -42,6 +44,7 @@ TEST_CASE("an OBJ cube: triangulated, materials and maps, flat faces at its righ
   REQUIRE(scene.materials.size() == 2);
   CHECK(has_note(scene, "no normals"));
   CHECK(has_note(scene, "per vertex"));
+  CHECK(file_names(scene) == std::set<std::string>{"cube.obj", "cube.mtl", "colour.png", "normal.png"});
   for (std::size_t t = 0; t < 12; ++t) {
     const auto p = [&](std::size_t k) { return dvec3(scene.positions[scene.indices[3 * t + k]]); };
     const dvec3 face = glm::normalize(glm::cross(p(1) - p(0), p(2) - p(0)));

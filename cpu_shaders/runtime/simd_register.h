@@ -273,12 +273,12 @@ template <class V>
 requires(sizeof(V) == 64) TWINSHADE_INLINE V blend(__mmask16 m, V x, V y) {
   return (V)_mm512_mask_blend_epi32(m, (__m512i)y, (__m512i)x);
 }
-// The instruction only where y is a number: elsewhere x stays.
+// Compilers make one masked instruction of it, and leave the mask out where y is constant.
 TWINSHADE_INLINE Float16 lesser(Float16 x, Float16 y) {
-  return (Float16)_mm512_mask_min_ps((__m512)x, equal(y, y), (__m512)x, (__m512)y);
+  return y != y ? x : (Float16)_mm512_maskz_min_ps(0xffff, (__m512)x, (__m512)y);
 }
 TWINSHADE_INLINE Float16 larger(Float16 x, Float16 y) {
-  return (Float16)_mm512_mask_max_ps((__m512)x, equal(y, y), (__m512)x, (__m512)y);
+  return y != y ? x : (Float16)_mm512_maskz_max_ps(0xffff, (__m512)x, (__m512)y);
 }
 #endif
 

@@ -15,35 +15,50 @@ struct ExactPoint {
   TWINSHADE_INLINE F depth() const {
     using R = typename F::element;
     const F d = (z / w) * F(R(0.5)) + F(R(0.5));
-    return select(d > F(R(0)), lanes_min(d, F(R(1))), F(R(0)));
+    return lanes_min(lanes_max(d, F(R(0))), F(R(1)));
   }
   TWINSHADE_INLINE F reciprocal_w() const { return sum / w; }
 };
+
+// Of a primitive's vertex `v`: x, y, z, w.
+TWINSHADE_INLINE const float* clip_position(const VertexData& vertices, std::uint32_t primitive, int v) {
+  return vertices.clip_positions + std::size_t(vertices.indices[std::size_t(primitive) * 3 + std::size_t(v)]) * 4;
+}
 
 // F: lanes of float or double.
 template <class F>
 struct ExactTriangle {
   using R = typename F::element;
-  F x[3], y[3], z[3], w[3];  // clip space
+  // Clip space. x + ndc * -w is x - ndc * w to the sign of a zero, but of its operands the one that has been computed
+  // is the first, and the other can be in memory.
+  F x[3], y[3], z[3], w[3], minus_w[3];
 
+  ExactTriangle() = default;
   TWINSHADE_INLINE ExactTriangle(const VertexData& vertices, std::uint32_t primitive) {
-    const std::uint32_t* index = vertices.indices + std::size_t(primitive) * 3;
     for (int v = 0; v < 3; ++v) {
-      const float* p = vertices.clip_positions + std::size_t(index[v]) * 4;
+      const float* p = clip_position(vertices, primitive, v);
       x[v] = F(R(p[0]));
       y[v] = F(R(p[1]));
       z[v] = F(R(p[2]));
       w[v] = F(R(p[3]));
+      minus_w[v] = -w[v];
     }
   }
 
-  TWINSHADE_INLINE ExactPoint<F> at(F ndc_x, F ndc_y) const {
-    const F x0 = x[0] - ndc_x * w[0];
-    const F y0 = y[0] - ndc_y * w[0];
-    const F x1 = x[1] - ndc_x * w[1];
-    const F y1 = y[1] - ndc_y * w[1];
-    const F x2 = x[2] - ndc_x * w[2];
-    const F y2 = y[2] - ndc_y * w[2];
+  TWINSHADE_INLINE ExactPoint<F> at(F ndc_x, F ndc_y) const { return at(columns(ndc_x), ndc_y); }
+
+  // Of a column of pixels, and so the same for all rows.
+  struct Columns {
+    F x[3];
+  };
+  TWINSHADE_INLINE Columns columns(F ndc_x) const {
+    return {{x[0] + ndc_x * minus_w[0], x[1] + ndc_x * minus_w[1], x[2] + ndc_x * minus_w[2]}};
+  }
+  TWINSHADE_INLINE ExactPoint<F> at(const Columns& columns, F ndc_y) const {
+    const F &x0 = columns.x[0], &x1 = columns.x[1], &x2 = columns.x[2];
+    const F y0 = y[0] + ndc_y * minus_w[0];
+    const F y1 = y[1] + ndc_y * minus_w[1];
+    const F y2 = y[2] + ndc_y * minus_w[2];
     ExactPoint<F> p;
     p.e0 = x1 * y2 - x2 * y1;
     p.e1 = x2 * y0 - x0 * y2;

@@ -11,7 +11,7 @@ namespace twinshade::tiled {
 // y, exactly, in units of kSubpixel square subpixels. Left and low-y edges hold points on them, folded into c.
 struct RasterTriangle {
   std::int64_t c[3];
-  std::int32_t a[3], b[3];
+  std::int32_t a[3], b[3];                   // coverage loads four of each of the three, so something must follow them
   std::uint16_t min_x, min_y, max_x, max_y;  // pixels whose centres can be inside, within the frame, ends included
   std::uint32_t primitive;                   // position in the bundle's indices / 3
   std::uint32_t front_facing;                // ~0u: counter-clockwise, else 0

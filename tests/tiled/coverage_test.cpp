@@ -1,11 +1,14 @@
 // Coverage against a brute-force twin in wide integers, and the properties a fill rule is for.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "raster/tiled/tiled_renderer.h"
 #include "raster/tiled/window.h"
 #include "tests/tiled/hand_module.h"
+#include "tests/tiled/machine_kernels.h"
 #include "tests/tiled/random_scene.h"
 
 using namespace twinshade;
@@ -88,6 +91,57 @@ TEST_CASE("coverage is that of wide integers, pixel by pixel") {
     CHECK(covered > 1000);
     CHECK(on_edges > 250);  // the rule was put to the test
   }
+}
+
+// Edge functions there have more than 32 bits.
+TEST_CASE("tiles of the largest frame are covered as wide integers say, for every instruction set") {
+  constexpr std::uint32_t kFrame = 16384;
+  test::Random random(5);
+  std::size_t covered = 0, tiles = 0;
+  while (tiles < 300) {
+    // In subpixels, and where the depth's arithmetic has them.
+    tiled::WindowVertex corners[3];
+    float clip[12];
+    for (std::size_t v = 0; v < 3; ++v) {
+      corners[v] = {std::int32_t(random.below(kFrame * 256)), std::int32_t(random.below(kFrame * 256)), 0, 0};
+      const float at[] = {float((corners[v].x / 256.0 + 0.5) * 2 / kFrame - 1),
+                          float((corners[v].y / 256.0 + 0.5) * 2 / kFrame - 1), 0, 1};
+      std::copy_n(at, 4, clip + 4 * v);
+    }
+    constexpr std::uint32_t kInOrder[] = {0, 1, 2};
+    const std::uint32_t size = 16u << random.below(4), x0 = random.below(kFrame / size) * size,
+                        y0 = random.below(kFrame / size) * size;
+    for (const tiled::Kernels* kernels : test::kernels_of_machine()) {
+      CAPTURE(isa_name(kernels->isa));
+      tiled::RasterTriangle triangles[tiled::kSetUpAtOnce];
+      if (kernels->set_up_triangles({corners, kInOrder, 1, kFrame, kFrame, false, triangles}).visible == 0) break;
+      const tiled::RasterTriangle* triangle = &triangles[0];
+      if (triangle->min_x >= x0 + size || triangle->max_x < x0 || triangle->min_y >= y0 + size || triangle->max_y < y0)
+        break;  // it is in no other tile's bin
+      tiles += kernels->isa == Isa::baseline;
+      const std::uint32_t local = 0;
+      const tiled::LocalPrimitive primitive{0, nullptr, nullptr, 0};
+      const tiled::VertexData vertices{clip, kInOrder, nullptr, 0, 2.0f / kFrame, 2.0f / kFrame};
+      std::vector<float> depth(size * size, 1.0f);
+      std::vector<std::uint32_t> visible(size * size, tiled::kNotVisible);
+      kernels->cover(
+          {&triangle, &local, 1, &primitive, &vertices, x0, y0, size, kFrame, kFrame, depth.data(), visible.data()});
+      std::size_t expected = 0, different = 0;
+      for (std::uint32_t k = 0; k < size * size; ++k) {
+        // kernels.h: the order of pixels in a tile's memory.
+        const std::uint32_t superblock = k / 256, across = size / 16;
+        const Wide x = x0 + superblock % across * 16 + (k / 16 % 4) * 4 + (k / 4 % 2) * 2 + k % 2;
+        const Wide y = y0 + superblock / across * 16 + (k / 64 % 4) * 4 + (k / 8 % 2) * 2 + k / 2 % 2;
+        bool inside = true;
+        for (int e = 0; e < 3; ++e) inside = inside && triangle->c[e] + triangle->a[e] * x + triangle->b[e] * y >= 0;
+        expected += inside;
+        different += inside != (visible[k] == 0);
+      }
+      CHECK(different == 0);
+      covered += expected;
+    }
+  }
+  CHECK(covered > 100000);
 }
 
 TEST_CASE("a mesh that tiles the screen covers each pixel exactly once") {

@@ -6,10 +6,9 @@
 #include <limits>
 #include <vector>
 
-#include "cpu_shaders/machine.h"
-#include "raster/tiled/entry.h"
 #include "raster/tiled/kernels.h"
 #include "raster/tiled/window.h"
+#include "tests/tiled/machine_kernels.h"
 #include "tests/tiled/random_scene.h"
 
 using namespace twinshade;
@@ -18,14 +17,6 @@ using namespace twinshade::tiled;
 namespace {
 
 __extension__ using Wide = __int128;
-
-std::vector<const Kernels*> kernels_of_machine() {
-  std::vector<const Kernels*> all;
-  for (const auto& [isa, number] : {std::pair(Isa::baseline, Number::lanes4), std::pair(Isa::avx2, Number::lanes8),
-                                    std::pair(Isa::avx512, Number::lanes16)})
-    if (isa <= machine_isa()) all.push_back(&choose_kernels(isa, number));
-  return all;
-}
 
 float any_component(test::Random& random) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -99,7 +90,7 @@ WindowVertex any_vertex(test::Random& random) {
 
 TEST_CASE("vertices are in the window where each alone is, for every instruction set") {
   test::Random random(21);
-  for (const Kernels* kernels : kernels_of_machine())
+  for (const Kernels* kernels : test::kernels_of_machine())
     for (std::size_t count = 0; count <= 40; ++count) {
       std::vector<float> clip(4 * count);
       for (float& c : clip) c = any_component(random);
@@ -147,7 +138,7 @@ TEST_CASE("vertices are snapped to the nearest subpixel, of two the even one, up
     REQUIRE(double(float(x)) == x);
     clip.insert(clip.end(), {float(x), float(x), 0, 1});
   }
-  for (const Kernels* kernels : kernels_of_machine()) {
+  for (const Kernels* kernels : test::kernels_of_machine()) {
     std::vector<WindowVertex> vertices(cases.size());
     kernels->transform_vertices({clip.data(), cases.size(), {32, 32}, vertices.data(), nullptr});
     for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -160,7 +151,7 @@ TEST_CASE("vertices are snapped to the nearest subpixel, of two the even one, up
 
 TEST_CASE("triangles are set up exactly, as many as there are, for every instruction set") {
   test::Random random(22);
-  for (const Kernels* kernels : kernels_of_machine()) {
+  for (const Kernels* kernels : test::kernels_of_machine()) {
     std::size_t visible = 0, cut = 0;
     for (int round = 0; round < 4000; ++round) {
       std::vector<WindowVertex> vertices(24);

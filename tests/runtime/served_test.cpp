@@ -345,8 +345,10 @@ TEST_CASE("fetches of all layers give the bits of their GLSL, side by side in me
 TEST_CASE(
     "fetches of all layers' colours give the bits of their GLSL, side by side in memory or not, all there or not") {
   // One line and a layer that is left, two lines, four; few and many for broadcasts.
-  for (const auto& [count, spread] : {std::pair(6, 1.0f), {6, 0.001f}, {9, 0.001f}, {17, 0.001f}})
+  for (const auto& count_and_spread : {std::pair(6, 1.0f), {6, 0.001f}, {9, 0.001f}, {17, 0.001f}})
     for (const std::int32_t layers : {1, 6, 9, 10, 20}) {
+      const int count = count_and_spread.first;
+      const float spread = count_and_spread.second;
       CAPTURE(count);
       CAPTURE(layers);
       const ManyLayers array(layers);

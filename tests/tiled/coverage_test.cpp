@@ -112,7 +112,7 @@ TEST_CASE("tiles of the largest frame are covered as wide integers say, for ever
     const std::uint32_t size = 16u << random.below(4), x0 = random.below(kFrame / size) * size,
                         y0 = random.below(kFrame / size) * size;
     for (const tiled::Kernels* kernels : test::kernels_of_machine()) {
-      CAPTURE(isa_name(kernels->isa));
+      CAPTURE(tiled::isa_name(kernels->isa));
       tiled::RasterTriangle triangles[tiled::kSetUpAtOnce];
       if (kernels->set_up_triangles({corners, kInOrder, 1, kFrame, kFrame, false, triangles}).visible == 0) break;
       const tiled::RasterTriangle* triangle = &triangles[0];

@@ -35,6 +35,7 @@ TWINSHADE_INLINE Edges product(Edges32 x, std::int32_t y) {
   return widened(x) * std::int64_t{y};
 #endif
 }
+// Of the three.
 TWINSHADE_INLINE bool any_negative(Edges x) {
 #if defined(__AVX2__)
   return (_mm256_movemask_pd((__m256d)x) & 7) != 0;

@@ -21,14 +21,16 @@ alignas(64) inline constexpr std::int32_t kPixelX[16] = {0, 1, 0, 1, 2, 3, 2, 3,
 alignas(64) inline constexpr std::int32_t kPixelY[16] = {0, 0, 1, 1, 0, 0, 1, 1, 2, 2, 3, 3, 2, 2, 3, 3};
 
 // What a compiler cannot tell to be the same pointer: numbers that it would keep in registers, of which there are too
-// few, are read from memory by the instructions that need them.
+// few, are read from memory by the instructions that need them. The pointer escapes into the asm, so that what was
+// stored before stays and can be what the result points to; without volatile or a clobber equal calls may become one.
 template <class T>
 TWINSHADE_INLINE T* hidden(T* pointer) {
   asm("" : "+r"(pointer));
   return pointer;
 }
 
-// Numbers that repeat after `period` ones, as many as F's registers have lanes at least: each is loaded once.
+// Numbers that repeat after `period` ones: registers of no more lanes are loaded once for all of F. A wider one is
+// loaded whole.
 template <int period, class F>
 TWINSHADE_INLINE F load_repeating(const float* from) {
   F x;
@@ -113,6 +115,8 @@ class StoredPlaces {
   Row rows_[kMost];
 };
 
+// Depths are from +0 to 1, neither -0 nor NaN: they are compared by their bits.
+
 // Depth of a native triangle: the plane through its window z, evaluated as Mesa does where it has no fused
 // multiply-add. x, y: of pixels' centres.
 struct NativeDepth {
@@ -130,7 +134,7 @@ struct NativeDepth {
   }
 };
 
-// The number that fills a register, in all of F's. The second half's is elsewhere.
+// The number that fills a register, in all of F's; where these are several, the second half's from `second`.
 template <class F>
 TWINSHADE_INLINE F load_same(const float* from, const float* second) {
   F x = load_repeating<kNativeLanes, F>(from);

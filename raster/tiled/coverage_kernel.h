@@ -17,7 +17,7 @@ inline constexpr std::uint32_t kWindow = 16;
 // Edge values are cut off here: farther from 0 than any step within a window (15 * (|a| + |b|) < 2^29) can lead back.
 inline constexpr std::int64_t kEdgeLimit = std::int64_t{1} << 30;
 
-// A number of each edge. The fourth lane means nothing: a triangle's are loaded with what follows them.
+// A number of each edge. The fourth lane means nothing.
 using Edges = Register<std::int64_t, 4>;
 using Edges32 = Register<std::int32_t, 4>;
 
@@ -55,7 +55,7 @@ TWINSHADE_INLINE bool all_negative(I x) {
 
 // Calls use(places.window(column, row), block, inmost) for each block of the tile of which some pixels are covered:
 // those whose lane of inmost is not negative. column, row: of a window of 4 x 4 blocks, in blocks from the tile's first
-// one; block: 0 to 15, by rows. The triangle's bounding box must have pixels in the tile.
+// one; block: 0 to 15, by rows. The triangle's bounding box has pixels in the tile.
 template <class Places, class Use>
 TWINSHADE_INLINE void for_each_covered_block(const RasterTriangle& t, const CoverTile& tile, const Places& places,
                                              Use use) {
@@ -73,7 +73,10 @@ TWINSHADE_INLINE void for_each_covered_block(const RasterTriangle& t, const Cove
   struct alignas(64) Steps {
     std::int32_t block[3][16], reach[3][16], pixel[3][16];
   } all_steps;
-  const Edges32 a = registers::load<4>(t.a), b = registers::load<4>(t.b);
+  // The fourth lanes are what follows in the triangle; that of b is cleared, since it might overflow.
+  static_assert(offsetof(RasterTriangle, c) + 32 <= sizeof(RasterTriangle) &&
+                offsetof(RasterTriangle, b) + 16 <= sizeof(RasterTriangle));
+  const Edges32 a = registers::load<4>(t.a), b = registers::load<4>(t.b) & Edges32{-1, -1, -1, 0};
   const Edges32 inwards = (a > 0 ? a : Edges32{}) + (b > 0 ? b : Edges32{}), three = inwards + inwards + inwards;
   for (int e = 0; e < 3; ++e) {
     const I a_e(t.a[e]), b_e(t.b[e]);
@@ -142,7 +145,7 @@ void cover_all(const CoverTile& tile) {
         *tile.triangles[which], tile, places, [&](const auto& window, std::size_t block, I inmost) TWINSHADE_LAMBDA {
           const std::size_t pixel = window.pixel(block);
           const F depth = depth_at(window.x(block), window.y(block)), old = F::load(depths + pixel);
-          // Depths are not negative: their bits compare as they do.
+          // Depths are from +0 to 1: their bits compare as they do.
           const BlockMask nearer = (~inmost & (depth.as<std::int32_t>() - old.as<std::int32_t>())) < I(0);
           blend(nearer, depth, old).store(depths + pixel);
           blend(nearer, local, U::load(visible + pixel)).store(visible + pixel);

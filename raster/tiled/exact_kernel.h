@@ -29,8 +29,8 @@ TWINSHADE_INLINE const float* clip_position(const VertexData& vertices, std::uin
 template <class F>
 struct ExactTriangle {
   using R = typename F::element;
-  // Clip space. x + ndc * -w is x - ndc * w to the sign of a zero, but of its operands the one that has been computed
-  // is the first, and the other can be in memory.
+  // Clip space. x + ndc * -w is x - ndc * w bit for bit, but what has been computed is its one operand, so that the
+  // other can be in memory.
   F x[3], y[3], z[3], w[3], minus_w[3];
 
   ExactTriangle() = default;
@@ -54,8 +54,8 @@ struct ExactTriangle {
   TWINSHADE_INLINE Columns columns(F ndc_x) const {
     return {{x[0] + ndc_x * minus_w[0], x[1] + ndc_x * minus_w[1], x[2] + ndc_x * minus_w[2]}};
   }
-  TWINSHADE_INLINE ExactPoint<F> at(const Columns& columns, F ndc_y) const {
-    const F &x0 = columns.x[0], &x1 = columns.x[1], &x2 = columns.x[2];
+  TWINSHADE_INLINE ExactPoint<F> at(const Columns& at_columns, F ndc_y) const {
+    const F &x0 = at_columns.x[0], &x1 = at_columns.x[1], &x2 = at_columns.x[2];
     const F y0 = y[0] + ndc_y * minus_w[0];
     const F y1 = y[1] + ndc_y * minus_w[1];
     const F y2 = y[2] + ndc_y * minus_w[2];

@@ -71,7 +71,7 @@ struct CoverTile {
   const VertexData* vertices;
   std::uint32_t x, y, size;  // lower left pixel; tile size
   std::uint32_t frame_width, frame_height;
-  float* depth;            // of the tile
+  float* depth;            // of the tile: +0 to 1
   std::uint32_t* visible;  // local index, or kNotVisible
 };
 

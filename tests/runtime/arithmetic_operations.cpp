@@ -29,6 +29,8 @@ struct Group {
       OPERATION("(a < b) != (b < c)", return (a < b) != (b < c);),
       OPERATION("min(a, b)", return lanes_min(a, b);),
       OPERATION("max(a, b)", return lanes_max(a, b);),
+      OPERATION("min(a, 1 uniform)", return lanes_min(a, UF(1.0f));),
+      OPERATION("max(a, 0 uniform)", return lanes_max(a, UF(0.0f));),
       OPERATION("abs(a)", return lanes_abs(a);),
       OPERATION("sqrt(a)", return lanes_sqrt(a);),
       OPERATION("floor(a)", return lanes_floor(a);),

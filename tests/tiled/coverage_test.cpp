@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <vector>
 
@@ -93,55 +94,80 @@ TEST_CASE("coverage is that of wide integers, pixel by pixel") {
   }
 }
 
-// Edge functions there have more than 32 bits.
-TEST_CASE("tiles of the largest frame are covered as wide integers say, for every instruction set") {
-  constexpr std::uint32_t kFrame = 16384;
+// Edge functions of the largest frame have more than 32 bits.
+TEST_CASE("tiles of frames of any size are covered as wide integers say, for every instruction set") {
+  constexpr std::uint32_t kLargest = 16384;
   test::Random random(5);
-  std::size_t covered = 0, tiles = 0;
-  while (tiles < 300) {
-    // In subpixels, and where the depth's arithmetic has them.
-    tiled::WindowVertex corners[3];
+  std::size_t covered = 0, tiles = 0, at_border = 0;
+  while (tiles < 600) {
+    const bool largest = random.below(2) == 0;
+    const std::uint32_t width = largest ? kLargest : 1 + random.below(kLargest),
+                        height = largest ? kLargest : 1 + random.below(kLargest);
+    tiled::WindowVertex corners[3];  // in subpixels
     float clip[12];
     for (std::size_t v = 0; v < 3; ++v) {
-      corners[v] = {std::int32_t(random.below(kFrame * 256)), std::int32_t(random.below(kFrame * 256)), 0, 0};
-      const float at[] = {float((corners[v].x / 256.0 + 0.5) * 2 / kFrame - 1),
-                          float((corners[v].y / 256.0 + 0.5) * 2 / kFrame - 1), 0, 1};
+      const auto coordinate = [&](std::uint32_t size) {  // one in four at the far border
+        return std::int32_t(random.below(4) == 0 ? size * 256 - 1 : random.below(size * 256));
+      };
+      corners[v] = {coordinate(width), coordinate(height), 0, 0};
+      const double w = std::exp2(random.between(-3, 3));
+      const float at[] = {float(((corners[v].x / 256.0 + 0.5) * 2 / width - 1) * w),
+                          float(((corners[v].y / 256.0 + 0.5) * 2 / height - 1) * w), float(random.between(-1, 1) * w),
+                          float(w)};
       std::copy_n(at, 4, clip + 4 * v);
     }
     constexpr std::uint32_t kInOrder[] = {0, 1, 2};
-    const std::uint32_t size = 16u << random.below(4), x0 = random.below(kFrame / size) * size,
-                        y0 = random.below(kFrame / size) * size;
+    const std::uint32_t size = 16u << random.below(4);
+    const bool last = random.below(2) == 0;
+    const std::uint32_t x0 = (last ? width - 1 : random.below(width)) / size * size,
+                        y0 = random.below(height) / size * size;
     for (const tiled::Kernels* kernels : test::kernels_of_machine()) {
       CAPTURE(tiled::isa_name(kernels->isa));
       tiled::RasterTriangle triangles[tiled::kSetUpAtOnce];
-      if (kernels->set_up_triangles({corners, kInOrder, 1, kFrame, kFrame, false, triangles}).visible == 0) break;
+      if (kernels->set_up_triangles({corners, kInOrder, 1, width, height, false, triangles}).visible == 0) break;
       const tiled::RasterTriangle* triangle = &triangles[0];
       if (triangle->min_x >= x0 + size || triangle->max_x < x0 || triangle->min_y >= y0 + size || triangle->max_y < y0)
         break;  // it is in no other tile's bin
-      tiles += kernels->isa == Isa::baseline;
+      if (kernels->isa == Isa::baseline) {
+        ++tiles;
+        at_border += x0 + size > width || y0 + size > height;
+      }
       const std::uint32_t local = 0;
       const tiled::LocalPrimitive primitive{0, nullptr, nullptr, 0};
-      const tiled::VertexData vertices{clip, kInOrder, nullptr, 0, 2.0f / kFrame, 2.0f / kFrame};
-      std::vector<float> depth(size * size, 1.0f);
+      const tiled::VertexData vertices{clip, kInOrder, nullptr, 0, 2.0f / float(width), 2.0f / float(height)};
+      std::vector<float> depth(size * size, 1.0f), depths(size * size + 16);
       std::vector<std::uint32_t> visible(size * size, tiled::kNotVisible);
-      kernels->cover(
-          {&triangle, &local, 1, &primitive, &vertices, x0, y0, size, kFrame, kFrame, depth.data(), visible.data()});
-      std::size_t expected = 0, different = 0;
+      std::vector<tiled::VisibleBlock> blocks(size * size / 16 + 1);
+      const tiled::CoverTile tile{&triangle, &local, 1,     &primitive, &vertices,    x0,
+                                  y0,        size,   width, height,     depth.data(), visible.data()};
+      kernels->cover(tile);
+      const std::uint32_t block_count = kernels->cover_one(tile, 0, false, blocks.data(), depths.data());
+      std::vector<std::uint32_t> block_of(size * size / 16, block_count);
+      for (std::uint32_t i = 0; i < block_count; ++i) block_of[blocks[i].block] = i;
+      std::size_t different = 0, depths_different = 0;
       for (std::uint32_t k = 0; k < size * size; ++k) {
         // kernels.h: the order of pixels in a tile's memory.
         const std::uint32_t superblock = k / 256, across = size / 16;
         const Wide x = x0 + superblock % across * 16 + (k / 16 % 4) * 4 + (k / 4 % 2) * 2 + k % 2;
         const Wide y = y0 + superblock / across * 16 + (k / 64 % 4) * 4 + (k / 8 % 2) * 2 + k / 2 % 2;
-        bool inside = true;
-        for (int e = 0; e < 3; ++e) inside = inside && triangle->c[e] + triangle->a[e] * x + triangle->b[e] * y >= 0;
-        expected += inside;
-        different += inside != (visible[k] == 0);
+        bool expected = x < width && y < height;
+        for (int e = 0; e < 3; ++e)
+          expected = expected && triangle->c[e] + triangle->a[e] * x + triangle->b[e] * y >= 0;
+        const std::uint32_t block = block_of[k / 16];
+        const bool inside = block < block_count && (blocks[block].coverage >> k % 16 & 1) != 0;
+        different += inside != expected;
+        covered += expected;
+        // Both ways the same depth; at 1 nothing is nearer than what is there.
+        const float here = inside ? depths[16 * block + k % 16] : 1.0f;
+        depths_different += std::bit_cast<std::uint32_t>(depth[k]) != std::bit_cast<std::uint32_t>(here);
+        depths_different += (visible[k] == 0) != (here < 1);
       }
       CHECK(different == 0);
-      covered += expected;
+      CHECK(depths_different == 0);
     }
   }
   CHECK(covered > 100000);
+  CHECK(at_border > 100);
 }
 
 TEST_CASE("a mesh that tiles the screen covers each pixel exactly once") {

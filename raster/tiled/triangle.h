@@ -10,8 +10,9 @@ namespace twinshade::tiled {
 // A triangle ready for coverage. Three edge functions, >= 0 inside; at pixel (x, y) edge i is c[i] + a[i] * x + b[i] *
 // y, exactly, in units of kSubpixel square subpixels. Left and low-y edges hold points on them, folded into c.
 struct RasterTriangle {
-  std::int64_t c[3];                         // coverage loads four numbers from c, a and b: not at the end
-  std::int32_t a[3], b[3];                   // coverage loads four of each of the three, so something must follow them
+  // Coverage loads four numbers from each, so none of them may be at the end.
+  std::int64_t c[3];
+  std::int32_t a[3], b[3];
   std::uint16_t min_x, min_y, max_x, max_y;  // pixels whose centres can be inside, within the frame, ends included
   std::uint32_t primitive;                   // position in the bundle's indices / 3
   std::uint32_t front_facing;                // ~0u: counter-clockwise, else 0

@@ -230,6 +230,17 @@ class ChunkSetup {
   std::size_t used_ = 0;  // of the chunk's triangles
 };
 
+// Of triangles to tiles. Bins begin at 32-bit numbers.
+std::size_t count_references(const std::vector<TriangleChunk>& chunks) {
+  std::size_t count = 0;
+  for (const TriangleChunk& chunk : chunks) count += chunk.references.size();
+  if (count > UINT32_MAX)
+    throw UserError("triangles cover " + std::to_string(count) +
+                    " tiles in all, of which 2^32 - 1 can be binned: ask "
+                    "for larger tiles or a smaller frame");
+  return count;
+}
+
 }  // namespace
 
 TileGrid make_grid(std::uint32_t frame_width, std::uint32_t frame_height, int tile_size) {
@@ -270,12 +281,12 @@ void set_up_and_bin(const Bundle& bundle, const BoundDraw& draw, AttributeMode m
   // Where each chunk's references to each tile begin: tile by tile, chunks in order within.
   geometry.bin_begin.resize(grid.count() + 1);
   std::uint32_t begin = 0;
+  geometry.bins.resize(count_references(geometry.chunks));
   for (std::uint32_t tile = 0; tile < grid.count(); ++tile) {
     geometry.bin_begin[tile] = begin;
     for (TriangleChunk& chunk : geometry.chunks) begin += std::exchange(chunk.tile_counts[tile], begin);
   }
   geometry.bin_begin[grid.count()] = begin;
-  geometry.bins.resize(begin);
   parallel_for(chunk_count, [&](std::size_t i, int) {
     TriangleChunk& chunk = geometry.chunks[i];
     for (const TriangleChunk::Reference reference : chunk.references)

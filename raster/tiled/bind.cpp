@@ -171,6 +171,9 @@ class Binder {
       if (module_.resources[i].beside >= 0)
         put_beside(draw_.textures[module_.resources[i].slot], draw_.textures[std::size_t(module_.resources[i].beside)]);
     for (TextureView& view : draw_.textures) move_rows_apart(view);
+    for (std::uint32_t i = 0; i < module_.resource_count; ++i)
+      if (module_.resources[i].kind >= ResourceKind::sampler_2d)
+        check_places(module_.resources[i], draw_.textures[module_.resources[i].slot]);
   }
 
   void bind_buffer(const ShaderResource& wanted, bool storage) {
@@ -205,8 +208,20 @@ class Binder {
     view.kind = kind;
     view.filter = texture->filter;
     view.wrap = texture->wrap;
+    check_places(wanted, view);
     if (wanted.layer_order == LayerOrder::together) interleave(view);
     if (wanted.layer_order == LayerOrder::colors_together) interleave_colors(view);
+  }
+
+  // Places of texels are 32-bit numbers of twos of floats.
+  void check_places(const ShaderResource& resource, const TextureView& view) const {
+    const std::uint64_t last = std::uint64_t(view.width - 1) * std::uint64_t(view.texel_pitch) +
+                               std::uint64_t(view.height - 1) * std::uint64_t(view.row_pitch) +
+                               std::uint64_t(view.layers - 1) * std::uint64_t(view.layer_pitch);
+    if (last / 2 > UINT32_MAX)
+      fail("texture " + quoted(resource.name) +
+           " takes more than 32 GiB, beyond which texels have no addresses: make it "
+           "smaller");
   }
 
   // Rows of large textures that no other layout has moved, where row_pitch says so.

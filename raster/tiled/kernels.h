@@ -140,8 +140,7 @@ struct StoreColors {
   float* color;  // of the tile: RGBA of each pixel
 };
 
-// A superblock of a tile, to the frame. Pointers are to its first pixel. In every row to_color is 32-byte aligned,
-// to_depth and to_primitive_id 16.
+// A superblock of a tile, to the frame. Pointers are to its first pixel.
 struct StoreSuperblock {
   const float* color;  // RGBA
   const float* depth;
@@ -152,6 +151,7 @@ struct StoreSuperblock {
   std::uint8_t* to_coverage;       // 1 where the id is another than no_primitive, else 0
   std::uint32_t no_primitive;
   std::size_t width;  // of the frame
+  bool aligned;       // in every row to_color is 32-byte aligned, to_depth and to_primitive_id 16
 };
 
 struct Kernels {

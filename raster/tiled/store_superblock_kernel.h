@@ -8,12 +8,15 @@
 namespace twinshade::tiled {
 inline namespace TWINSHADE_ISA_NAMESPACE {
 
-// Whole cache lines are combined on their way to memory, without being read first. `to` is aligned to what is stored.
-template <class V>
+// Whole cache lines are combined on their way to memory, without being read first. Where rows of the frame begin
+// anywhere, lines would go there in parts: ordinary stores.
+template <bool aligned, class V>
 TWINSHADE_INLINE void stream(typename V::element* to, V value) {
-  if constexpr (!V::whole) {
-    stream(to, value.lo);
-    stream(to + V::width / 2, value.hi);
+  if constexpr (!aligned) {
+    value.store(to);
+  } else if constexpr (!V::whole) {
+    stream<aligned>(to, value.lo);
+    stream<aligned>(to + V::width / 2, value.hi);
   } else {
 #if defined(__AVX2__)
     if constexpr (V::width == 8) return _mm256_stream_ps(reinterpret_cast<float*>(to), (__m256)value.v);
@@ -41,9 +44,10 @@ struct Rows {
       high[i].v = __builtin_shufflevector(left.v, right.v, 2, 3, 6, 7);
     }
   }
+  template <bool aligned>
   TWINSHADE_INLINE void stream_to(typename V::element* row, std::size_t width) const {
-    for (int i = 0; i < 4; ++i) stream(row + 4 * i, low[i]);
-    for (int i = 0; i < 4; ++i) stream(row + width + 4 * i, high[i]);
+    for (int i = 0; i < 4; ++i) stream<aligned>(row + 4 * i, low[i]);
+    for (int i = 0; i < 4; ++i) stream<aligned>(row + width + 4 * i, high[i]);
   }
 };
 
@@ -52,7 +56,8 @@ inline constexpr std::uint32_t kCoverageBytes[16] = {
     0x00000000, 0x00000001, 0x00000100, 0x00000101, 0x00010000, 0x00010001, 0x00010100, 0x00010101,
     0x01000000, 0x01000001, 0x01000100, 0x01000101, 0x01010000, 0x01010001, 0x01010100, 0x01010101};
 
-inline void store_superblock(const StoreSuperblock& call) {
+template <bool aligned>
+TWINSHADE_INLINE void store_superblock_if(const StoreSuperblock& call) {
   using F4 = Simd<float, 4>;
   using U4 = Simd<std::uint32_t, 4>;
   using Pair = Simd<float, 8>;  // colours of (x, y) and (x + 1, y)
@@ -64,12 +69,12 @@ inline void store_superblock(const StoreSuperblock& call) {
       const float* const color = call.color + 4 * (from + 2 * up);
       float* const to = call.to_color + 4 * (pixel + up * width);
       for (std::size_t pair = 0; pair < 8; ++pair)
-        stream(to + 8 * pair, Pair::load(color + 4 * (pair / 2 * 16 + pair % 2 * 4)));
+        stream<aligned>(to + 8 * pair, Pair::load(color + 4 * (pair / 2 * 16 + pair % 2 * 4)));
     }
-    Rows<F4>(call.depth + from).stream_to(call.to_depth + pixel, width);
+    Rows<F4>(call.depth + from).template stream_to<aligned>(call.to_depth + pixel, width);
     if (!call.to_primitive_id) continue;
     const Rows<U4> id(call.primitive_id + from);
-    id.stream_to(call.to_primitive_id + pixel, width);
+    id.template stream_to<aligned>(call.to_primitive_id + pixel, width);
     for (std::size_t block = 0; block < 4; ++block) {
       const std::uint32_t bytes[2] = {kCoverageBytes[(id.low[block] != U4(call.no_primitive)).bits()],
                                       kCoverageBytes[(id.high[block] != U4(call.no_primitive)).bits()]};
@@ -77,6 +82,10 @@ inline void store_superblock(const StoreSuperblock& call) {
       std::memcpy(call.to_coverage + pixel + 4 * block + width, &bytes[1], 4);
     }
   }
+}
+
+inline void store_superblock(const StoreSuperblock& call) {
+  return call.aligned ? store_superblock_if<true>(call) : store_superblock_if<false>(call);
 }
 
 }  // namespace TWINSHADE_ISA_NAMESPACE

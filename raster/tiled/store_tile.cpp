@@ -18,11 +18,10 @@ void streams_done() {
 void TileWorker::store_tile() {
   const Frame& frame = draw_.frame;
   const std::uint32_t a_row = tile_.size / kSuperblock;
-  const bool aligned = frame.width % 4 == 0;  // as the kernel needs it: frames begin cache lines, superblocks at 16 n
   for (std::uint32_t superblock = 0; superblock < a_row * a_row; ++superblock) {
     const std::uint32_t x = tile_.x + superblock % a_row * kSuperblock, y = tile_.y + superblock / a_row * kSuperblock;
     const std::uint32_t first = superblock * kSuperblock * kSuperblock;
-    if (aligned && x + kSuperblock <= frame.width && y + kSuperblock <= frame.height && !draw_.float64())
+    if (x + kSuperblock <= frame.width && y + kSuperblock <= frame.height && !draw_.float64())
       store_superblock(first, x, y);
     else
       store_superblock_by_pixels(first, x, y);
@@ -34,10 +33,11 @@ void TileWorker::store_superblock(std::uint32_t first, std::uint32_t x, std::uin
   Frame& frame = draw_.frame;
   const std::size_t pixel = std::size_t(y) * frame.width + x;
   const bool visibility = draw_.options.visibility;
+  const bool aligned = frame.width % 4 == 0;  // frames begin cache lines, superblocks at 16 n
   draw_.kernels.store_superblock({&color_[4 * std::size_t(first)], &tile_.depth[first], &primitive_id_[first],
                                   &frame.color[4 * pixel], &frame.depth[pixel],
                                   visibility ? &frame.primitive_id[pixel] : nullptr,
-                                  visibility ? &frame.coverage[pixel] : nullptr, kNoPrimitive, frame.width});
+                                  visibility ? &frame.coverage[pixel] : nullptr, kNoPrimitive, frame.width, aligned});
 }
 
 // At the frame's border, and for colours in double.

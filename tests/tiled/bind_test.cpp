@@ -299,3 +299,20 @@ TEST_CASE("rows of textures are not a power of two apart, every texel where the 
                   bundle.textures[i].texels[std::size_t(((layer * view.height + y) * view.width + x) * 4)]);
   }
 }
+
+TEST_CASE("a texture whose texels have no 32-bit places is refused before it is read") {
+  Bundle bundle = test::inside_bundle(8, 8, 1, 1);
+  Texture texture{};
+  texture.name = "huge";
+  texture.kind = TextureKind::two_d_array;
+  texture.width = texture.height = 16384;
+  texture.layers = 9;  // 36 GiB, not there
+  bundle.textures.push_back(texture);
+  Wishes wishes;
+  wishes.textures = 1;
+  wishes.resources.push_back({"huge", ResourceKind::sampler_2d_array, 0, 0, false, LayerOrder::colors_together});
+  CHECK_THROWS_WITH_AS(tiled::bind(bundle, wishes.module(), AttributeMode::exact),
+                       "shader \"wishes\": texture \"huge\" takes more than 32 GiB, beyond which texels have no "
+                       "addresses: make it smaller",
+                       UserError);
+}

@@ -198,6 +198,28 @@ TEST_CASE("float64 draws the same visibility") {
   CHECK(different == 0);
 }
 
+// float64's frames are stored pixel by pixel, others by superblocks, whose rows begin anywhere but at widths of 4 n.
+TEST_CASE("every pixel of a frame is stored, whatever its width") {
+  for (const std::uint32_t width : {173u, 174u, 175u, 176u}) {
+    CAPTURE(width);
+    const Bundle bundle = test::torture_bundle(width, 70, 300, 6);
+    DrawOptions options;
+    options.number = Number::float64;
+    const Frame expected = draw_tiled(bundle, test::built_ins_module(), options);
+    for (const Number number : {Number::scalar, Number::lanes8}) {
+      options.number = number;
+      const Frame frame = draw_tiled(bundle, test::built_ins_module(), options);
+      CHECK(frame.primitive_id == expected.primitive_id);
+      CHECK(frame.coverage == expected.coverage);
+      CHECK(frame.depth == expected.depth);
+      std::size_t different = 0;  // the primitive's number and facing; what follows is rounded otherwise
+      for (std::size_t i = 0; i < frame.color.size(); ++i)
+        different += i % 4 < 2 && frame.color[i] != expected.color[i];
+      CHECK(different == 0);
+    }
+  }
+}
+
 TEST_CASE("frames without ids and coverage have the same colours and depth") {
   for (const std::uint32_t width : {192u, 173u}) {  // whole superblocks, and pixels one by one
     const Bundle bundle = test::torture_bundle(width, 96, 300, 5);

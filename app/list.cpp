@@ -101,7 +101,7 @@ Listing list_bases(const Output& output) {
     output.progress("counting " + name);
     const BasisCost cost = basis_cost(basis);
     const OperationCount& operations = cost.operations;
-    const auto text = [](int number) { return std::to_string(number); };
+    const auto text = [](std::int64_t number) { return std::to_string(number); };
     listing.table.row({name, text(cost.coefficients), text(3 * cost.coefficients), text(cost.reads),
                        (operations.loops ? ">= " : "") + text(operations.total()), text(operations.additions),
                        text(operations.multiplications), text(operations.divisions), text(operations.square_roots),

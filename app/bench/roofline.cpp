@@ -8,10 +8,11 @@
 namespace twinshade::bench {
 
 ShaderCost shader_cost(const ShaderSource& source) {
-  const OperationCount count = count_operations(source, "main", "");
+  const OperationCount count = least_operations(source);
   ShaderCost cost;
-  cost.flops = count.additions + count.multiplications + count.divisions + count.square_roots;
-  cost.texel_bytes = 16.0 * count.texels;
+  cost.flops =
+      double(count.additions) + double(count.multiplications) + double(count.divisions) + double(count.square_roots);
+  cost.texel_bytes = 16.0 * double(count.texels);
   cost.input_bytes = 4.0 * translate(source).reflection.input_components;
   cost.loops = count.loops;
   return cost;

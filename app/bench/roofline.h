@@ -11,12 +11,13 @@ struct ShaderCost {
   double flops = 0;        // additions, multiplications, divisions and square roots
   double texel_bytes = 0;  // RGBA32F texels fetched, shared with neighbouring pixels or not
   double input_bytes = 0;  // interpolated inputs, read once
-  bool loops = false;      // there is a loop of unknown length, counted once
+  bool loops = false;      // there is a loop of unknown length, counted up to the first way out of it
 
   double bytes() const { return texel_bytes + input_bytes; }
 };
 
-// Of branches the dearest counts. The module is the one that draws. UserError where the shader cannot be translated.
+// What no invocation can do without (least_operations). The module is the one that draws. UserError where the shader
+// cannot be translated.
 ShaderCost shader_cost(const ShaderSource& source);
 
 // Nanoseconds a pixel that no implementation can stay under, on all threads together: the larger of arithmetic at the

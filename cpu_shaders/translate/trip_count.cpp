@@ -6,7 +6,7 @@ namespace {
 // More turns than any shader of ours takes: not worth simulating.
 constexpr std::uint64_t kMostTurns = 1 << 16;
 
-struct Reader {
+struct LoopReader {
   const Module& module;
   const FunctionInfo& info;
 
@@ -75,7 +75,7 @@ Id only_condition(const Statement& loop) {
 
 std::optional<CountedLoop> counted_loop(const Module& module, const FunctionInfo& info, const Statement& loop,
                                         const StoredConstants& before) {
-  const Reader reader{module, info};
+  const LoopReader reader{module, info};
   const Id condition = only_condition(loop);
   const auto found = info.definitions.find(condition);
   if (condition == 0 || loop.back_condition != 0 || found == info.definitions.end()) return std::nullopt;

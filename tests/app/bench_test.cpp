@@ -58,6 +58,7 @@ TEST_CASE("bench times every instruction set in both attribute modes, its stages
           doctest::Approx(ms * 1e6 / row["shaded_pixels"].get<double>()).epsilon(1e-6));
     CHECK(row["peak_memory"].get<std::int64_t>() > 1 << 20);
     CHECK(row["roofline_fraction"].get<double>() > 0);
+    CHECK(row["roofline_fraction"].get<double>() <= 1);
     // Four taps: of two material maps, 16 bytes each, and of the lightmap, a line of five layers and 16 bytes of the
     // sixth; or of albedo and of one layer alone.
     const bool h6 = row["technique"] == "h6";

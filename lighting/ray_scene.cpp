@@ -101,7 +101,7 @@ struct RayScene::Impl {
   std::vector<Triangle> triangles;
   std::vector<std::uint32_t> triangle_of_scene;  // scene index -> index into triangles, or kNoTriangle
   float padding = 0;
-  double diagonal = 0;
+  double lift = 0;
 
   ~Impl() {
     if (scene) rtcReleaseScene(scene);
@@ -120,6 +120,29 @@ struct RayScene::Impl {
 };
 
 namespace {
+
+constexpr double kRayLift = 0x1p-16;       // of the diagonal
+constexpr double kRoundingLift = 0x1p-20;  // of a coordinate
+// A diagonal this many times that of the scene's core is made by what lies far from it: a sky dome, a far hill.
+constexpr double kLargestSpread = 64;
+
+// Of the box between the lower quartile of triangles' lower ends and the upper quartile of their upper ends.
+double core_diagonal(const std::vector<Triangle>& triangles) {
+  const std::size_t quarter = triangles.size() / 4;
+  std::vector<float> low(triangles.size()), high(triangles.size());
+  glm::dvec3 size(0);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      const glm::vec3* corner = triangles[t].corner;
+      low[t] = std::min({corner[0][axis], corner[1][axis], corner[2][axis]});
+      high[t] = std::max({corner[0][axis], corner[1][axis], corner[2][axis]});
+    }
+    std::nth_element(low.begin(), low.begin() + std::ptrdiff_t(quarter), low.end());
+    std::nth_element(high.begin(), high.end() - 1 - std::ptrdiff_t(quarter), high.end());
+    size[axis] = std::max(0.0, double(high[high.size() - 1 - quarter]) - double(low[quarter]));
+  }
+  return glm::length(size);
+}
 
 const Triangle& triangle_of(void* geometry, unsigned primitive) {
   return static_cast<const RayScene::Impl*>(geometry)->triangles[primitive];
@@ -189,9 +212,10 @@ RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<Impl>()) {
     self.triangles.push_back(triangle);
   }
   if (self.triangles.empty()) return;
-  self.diagonal = std::sqrt(glm::dot(high - low, high - low));
+  const double diagonal = glm::length(high - low);
   const glm::dvec3 reach = glm::max(glm::abs(low), glm::abs(high));
-  self.padding = float(std::max({reach.x, reach.y, reach.z, self.diagonal}) * 0x1p-18);
+  self.padding = float(std::max({reach.x, reach.y, reach.z, diagonal}) * 0x1p-18);
+  self.lift = std::min(diagonal, kLargestSpread * core_diagonal(self.triangles)) * kRayLift;
 
   // Embree's tree over them
   self.device = new_device();
@@ -245,6 +269,9 @@ glm::dvec3 RayScene::geometric_normal(std::uint32_t index) const {
   return cross / std::sqrt(glm::dot(cross, cross));
 }
 
-double RayScene::diagonal() const { return impl_->diagonal; }
+double RayScene::lift(const glm::vec3& place) const {
+  const glm::dvec3 p = glm::abs(glm::dvec3(place));
+  return std::max(impl_->lift, std::max({p.x, p.y, p.z}) * kRoundingLift);
+}
 
 }  // namespace twinshade

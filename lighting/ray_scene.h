@@ -12,9 +12,6 @@ namespace twinshade {
 
 inline constexpr std::uint32_t kNoTriangle = 0xffffffffu;
 
-// How far off a surface rays from it begin, as part of the scene's diagonal: far above a float's rounding there, far
-// below anything one sees.
-inline constexpr double kRayLift = 0x1p-16;
 // A point is inside something if more than this part of the closest hits around it are back faces.
 inline constexpr double kInsideShare = 0.5;
 
@@ -43,8 +40,10 @@ class RayScene {
 
   // Unit normal of a triangle's plane on its front side; zero for triangles that are never hit.
   glm::dvec3 geometric_normal(std::uint32_t triangle) const;
-  // Length of the diagonal of the bounding box of all finite triangles; 0 where there are none.
-  double diagonal() const;
+  // How far off a surface, at a place on it, rays from there begin: far above a float's rounding there, far below
+  // anything one sees. The same everywhere in most scenes, a part of their diagonal; a few triangles far from the rest
+  // do not make it larger.
+  double lift(const glm::vec3& place) const;
 
   struct Impl;
 

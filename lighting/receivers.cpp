@@ -53,14 +53,14 @@ glm::vec3 albedo_at(const Scene& scene, std::uint32_t triangle, double b1, doubl
 
 class Builder {
  public:
-  Builder(const Scene& scene, const RayScene& rays) : scene_(scene), rays_(rays), lift_(rays.diagonal() * kRayLift) {}
+  Builder(const Scene& scene, const RayScene& rays) : scene_(scene), rays_(rays) {}
 
   // False where nothing can stand on the triangle.
   bool add_site(Receivers& out, std::uint32_t triangle, double b1, double b2) const {
     const glm::dvec3 normal = rays_.geometric_normal(triangle);
     if (!usable(normal)) return false;
     const glm::dvec3 place = blend(scene_.positions.data(), corners(triangle), b1, b2);
-    out.sites.push_back({glm::vec3(place + normal * lift_), glm::vec3(normal), triangle});
+    out.sites.push_back({glm::vec3(place + normal * rays_.lift(glm::vec3(place))), glm::vec3(normal), triangle});
     return true;
   }
 
@@ -86,7 +86,6 @@ class Builder {
   }
   const Scene& scene_;
   const RayScene& rays_;
-  double lift_;
 };
 
 }  // namespace

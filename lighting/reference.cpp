@@ -30,7 +30,7 @@ class Tracer {
 
   glm::vec3 radiance(const ShadedPoint& point, std::uint64_t index) const {
     const glm::dvec3 plane = rays_.geometric_normal(point.triangle);
-    const glm::vec3 origin(glm::dvec3(point.position) + plane * (rays_.diagonal() * kRayLift));
+    const glm::vec3 origin(glm::dvec3(point.position) + plane * rays_.lift(point.position));
     const auto sees = [&](const glm::vec3& direction) {
       return glm::dot(glm::dvec3(direction), plane) > 0 && !rays_.occluded(origin, direction, point.triangle);
     };

@@ -98,6 +98,29 @@ TEST_CASE("no ray passes between the triangles of a closed mesh") {
   }
 }
 
+TEST_CASE("what is far from the rest does not lift rays off what is near") {
+  for (const int count : {4, 200}) {
+    CAPTURE(count);
+    Scene scene = triangle_soup(count, 0.5f);
+    const glm::vec3 place = scene.positions[0];
+    const double alone = RayScene(scene).lift(place);
+    CHECK(alone > 1e-5);
+    CHECK(alone < 1e-4);
+    const std::uint32_t first = std::uint32_t(scene.positions.size());
+    for (const glm::vec3& corner :
+         {glm::vec3(1e4f), glm::vec3(1e4f, 1e4f + 1, 1e4f), glm::vec3(1e4f + 1, 1e4f, 1e4f)}) {
+      scene.positions.push_back(corner);
+      scene.normals.push_back({0, 1, 0});
+      scene.indices.push_back(first + std::uint32_t(scene.indices.size() - 3 * std::size_t(count)));
+    }
+    scene.triangle_materials.push_back(0);
+    const RayScene rays(scene);
+    CHECK(rays.lift(place) < 64 * alone);
+    CHECK(rays.lift(place) < 1e-2);            // the diagonal is 17 km: 0.26 without
+    CHECK(rays.lift(glm::vec3(1e4f)) > 2e-3);  // 2^-23 of it and more is rounded there
+  }
+}
+
 TEST_CASE("equal distances: the lowest triangle wins, and a skipped one is not there") {
   Scene scene = floor_scene();
   const Scene copy = scene;

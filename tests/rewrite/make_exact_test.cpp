@@ -235,6 +235,17 @@ TEST_CASE("constant structures whose members are zeros become variables") {
   }
 }
 
+TEST_CASE("members are those of the structure that is visible, not of another of its name") {
+  const std::string of_floats = "struct T { float a; };\nvoid f() { struct T { int a; } t; t.a = k; }\n";
+  const std::string of_ints = "struct T { int a; };\nvoid f() { struct T { float a; } t; t.a = a.x; }\n";
+  const auto square = [](const std::string& before) {
+    const std::string text = make_exact(shader_of("T t; color.x = float(t.a * t.a);", before)).source.text;
+    return text.find("exact_multiply(", text.find("void main")) != text.npos;
+  };
+  CHECK(square(of_floats));
+  CHECK(!square(of_ints));
+}
+
 TEST_CASE("the scope of constants leaves the rest alone") {
   CHECK(body_of("float x = a.x * (0.1 * 3.0) + 0.0;", ExactScope::constants) ==
         "floatx=a.x*(exact_multiply(0.1,3.0))+0.0;");

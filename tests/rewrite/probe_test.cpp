@@ -199,6 +199,16 @@ TEST_CASE("returned arrays are told") {
   CHECK(names(shader, 3, "result of f"));
 }
 
+TEST_CASE("of a structure that hides another its own members are told") {
+  const ShaderSource source = resolve_shader("t",
+                                             "in float a; out float c; struct T { float x; };\n"
+                                             "void main() { struct T { float r; }; T t = T(sin(a)); c = t.r; }\n",
+                                             "t.frag");
+  const ProbedShader shader = add_probes(source);
+  CHECK_NOTHROW(compile_glsl(shader.source));
+  CHECK(names(shader, 2, "t"));
+}
+
 TEST_CASE("integer statements are told, and values by member, column and element") {
   const ProbedShader shader = add_probes(everything());
   const ShaderSource integers = resolve_shader(

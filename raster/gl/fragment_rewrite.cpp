@@ -260,7 +260,7 @@ class Rewriter {
           input.array_length = std::uint32_t(*length);
         }
         if (words.count("flat") || type->scalar != Scalar::f32) input.interpolation = "flat";
-        if (words.count("noperspective"))
+        if (style_ == InputStyle::globals && words.count("noperspective"))
           fail(open + 1 + item.name, "noperspective needs native attributes: exact ones are perspective-correct");
         input.used = count_[input.name] > 1;
         members.push_back(input);

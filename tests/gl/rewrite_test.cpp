@@ -238,6 +238,15 @@ TEST_CASE("input blocks become structs, or globals where they have no name") {
   CHECK(shader.text.find("Loose") == std::string::npos);
 }
 
+TEST_CASE("noperspective is refused where attributes are interpolated exactly, and means nothing to values in rows") {
+  const std::string text = "in B { noperspective float u; };\nout float o;\nvoid main() { o = u; }\n";
+  CHECK(rejection(text) == "test.frag:1: noperspective needs native attributes: exact ones are perspective-correct");
+  const FragmentShader rows = rewrite_fragment_shader(shader(text), InputStyle::rows);
+  CHECK(contains(tokens_of(rows.text), "float u ; float o ;"));
+  REQUIRE(rows.inputs.size() == 1);
+  CHECK(rows.inputs[0].name == "u");
+}
+
 TEST_CASE("what cannot be rewritten is refused by name, file and line") {
   CHECK(rejection("\nin Block { bool a; } b;\n" + kMain) ==
         "test.frag:2: a member of type bool in an input block is not supported: use float, int, uint, vectors or "

@@ -324,6 +324,12 @@ TEST_CASE("GLSL ES and older versions are rewritten as GLSL 4.50") {
                      "in vec4 a; out vec4 c;\nvoid main() { precise vec4 b = a * a; c = b; }\n",
                      "extended.frag");
   CHECK_NOTHROW(CHECK(make_exact(extended).left.empty()));
+  const ShaderSource buffers =
+      resolve_shader("buffers",
+                     "#version 330\n#extension GL_ARB_shader_storage_buffer_object : enable\nlayout(std430) buffer;\n"
+                     "buffer B { vec4 b; }; in vec4 a; out vec4 c;\nvoid main() { c = a * b; }\n",
+                     "buffers.frag");
+  CHECK_NOTHROW(CHECK(make_exact(buffers).left.empty()));
 }
 
 TEST_CASE("a shader that includes exact functions itself gets each once") {

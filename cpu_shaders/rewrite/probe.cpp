@@ -5,6 +5,7 @@
 
 #include "cpu_shaders/lint/parser.h"
 #include "cpu_shaders/rewrite/exact_functions.h"
+#include "cpu_shaders/rewrite/new_keywords.h"
 #include "cpu_shaders/rewrite/token_edits.h"
 #include "cpu_shaders/translate/compile_glsl.h"
 
@@ -435,8 +436,8 @@ ProbedShader add_probes(const ShaderSource& source, const std::optional<std::set
   result.values = std::move(probe.values_);
   result.complete = probe.complete_;
   std::string text;
-  if (source.es) {  // where every output would need a location
-    result.source.version = 450;
+  if (source.es) {  // where every output would need a location; in 3.30 its names are no keywords yet
+    result.source.version = new_keywords(tokens, source).empty() ? 450 : 330;
     result.source.es = false;
   } else {
     text = probe.edits_.head(source);

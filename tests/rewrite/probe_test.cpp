@@ -229,7 +229,7 @@ TEST_CASE("integer statements are told, and values by member, column and element
   }
 }
 
-TEST_CASE("a shader's own probe and ES without a precision yet are no obstacle") {
+TEST_CASE("a shader's own probe, ES without a precision yet and names that are keywords elsewhere are no obstacle") {
   const ShaderSource own = resolve_shader(
       "t", "in vec4 a; out vec4 c; void probe(int i, float x) {} void main() { probe(1, a.x); c = a * 2.0; }\n",
       "t.frag");
@@ -245,6 +245,12 @@ TEST_CASE("a shader's own probe and ES without a precision yet are no obstacle")
 }
 
 TEST_CASE("gl_FragCoord becomes an input") {
+  const ShaderSource keyword = resolve_shader("t",
+                                              "#version 300 es\nprecision highp float;\nin float a; out float c;\n"
+                                              "void main() { float buffer = sin(a); c = buffer; }\n",
+                                              "t.frag");
+  CHECK_NOTHROW(compile_glsl(add_probes(keyword).source));
+  CHECK(names(add_probes(keyword), 4, "buffer"));
   const ShaderSource moved = frag_coord_as_input(everything());
   CHECK_NOTHROW(compile_glsl(moved));
   CHECK(moved.text.find("gl_FragCoord") == std::string::npos);

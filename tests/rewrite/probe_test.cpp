@@ -234,23 +234,29 @@ TEST_CASE("a shader's own probe, ES without a precision yet and names that are k
       "t", "in vec4 a; out vec4 c; void probe(int i, float x) {} void main() { probe(1, a.x); c = a * 2.0; }\n",
       "t.frag");
   CHECK_NOTHROW(compile_glsl(add_probes(own).source));
+  const ShaderSource names_of_probes =
+      resolve_shader("t",
+                     "in float probe_value; out float probe_place;\n"
+                     "void main() { float probe_twin = 1.0; probe_place = sin(probe_value) * probe_twin; }\n",
+                     "t.frag");
+  CHECK_NOTHROW(compile_glsl(add_probes(names_of_probes).source));
   const ShaderSource es = resolve_shader("t",
                                          "#version 300 es\nprecision highp float;\nin vec4 a; out vec4 c;\n"
                                          "void main() { c = sin(a) + gl_FragCoord.x; }\n",
                                          "t.frag");
   CHECK_NOTHROW(compile_glsl(frag_coord_as_input(es)));
-  const ShaderSource redeclared = resolve_shader(
-      "t", "in vec4 a; in vec4 gl_FragCoord; out vec4 c;\nvoid main() { c = a * gl_FragCoord.x; }\n", "t.frag");
-  CHECK_NOTHROW(compile_glsl(frag_coord_as_input(redeclared)));
-}
-
-TEST_CASE("gl_FragCoord becomes an input") {
   const ShaderSource keyword = resolve_shader("t",
                                               "#version 300 es\nprecision highp float;\nin float a; out float c;\n"
                                               "void main() { float buffer = sin(a); c = buffer; }\n",
                                               "t.frag");
   CHECK_NOTHROW(compile_glsl(add_probes(keyword).source));
   CHECK(names(add_probes(keyword), 4, "buffer"));
+  const ShaderSource redeclared = resolve_shader(
+      "t", "in vec4 a; in vec4 gl_FragCoord; out vec4 c;\nvoid main() { c = a * gl_FragCoord.x; }\n", "t.frag");
+  CHECK_NOTHROW(compile_glsl(frag_coord_as_input(redeclared)));
+}
+
+TEST_CASE("gl_FragCoord becomes an input") {
   const ShaderSource moved = frag_coord_as_input(everything());
   CHECK_NOTHROW(compile_glsl(moved));
   CHECK(moved.text.find("gl_FragCoord") == std::string::npos);

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "cpu_shaders/rewrite/make_exact.h"
+#include "cpu_shaders/rewrite/probe.h"
 #include "cpu_shaders/translate/compile_glsl.h"
 
 namespace twinshade {
@@ -330,6 +331,13 @@ TEST_CASE("GLSL ES and older versions are rewritten as GLSL 4.50") {
                      "buffer B { vec4 b; }; in vec4 a; out vec4 c;\nvoid main() { c = a * b; }\n",
                      "buffers.frag");
   CHECK_NOTHROW(CHECK(make_exact(buffers).left.empty()));
+}
+
+TEST_CASE("what a later version than 4.50 allows is still allowed") {
+  const ShaderSource later = resolve_shader(
+      "later", "#version 460 core\nout vec4 c; in float a; void main() { c = vec4(a * 2.0 + 1.0); };\n", "later.frag");
+  CHECK_NOTHROW(CHECK(make_exact(later).left.empty()));
+  CHECK_NOTHROW(compile_glsl(add_probes(later).source));
 }
 
 TEST_CASE("a shader that includes exact functions itself gets each once") {

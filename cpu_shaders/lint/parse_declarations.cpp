@@ -351,6 +351,12 @@ void Parser::tested(Role role) {
   declare(tokens_[name].text, variable);
 }
 
+void Parser::scoped_statement() {
+  scopes_.emplace_back();
+  statement();
+  scopes_.pop_back();
+}
+
 void Parser::statement() {
   skip_attributes();
   const std::size_t first = at_;
@@ -358,8 +364,8 @@ void Parser::statement() {
   if (accept(";")) return;
   if (accept("if")) {
     condition(Role::condition);
-    statement();
-    if (accept("else")) statement();
+    scoped_statement();
+    if (accept("else")) scoped_statement();
   } else if (is("while") || is("switch")) {
     const Role role = take().text == "while" ? Role::condition : Role::selector;
     scopes_.emplace_back();
@@ -367,7 +373,7 @@ void Parser::statement() {
     statement();
     scopes_.pop_back();
   } else if (accept("do")) {
-    statement();
+    scoped_statement();
     expect("while");
     condition(Role::condition);
     expect(";");

@@ -104,6 +104,7 @@ class Parser {
 
   // statements
   void statement();
+  void scoped_statement();  // of if, else and do: what it declares is seen there alone, with braces or without
   void block();
   void condition(Role role);
   void tested(Role role);

@@ -308,6 +308,15 @@ TEST_CASE("a structure hides another of its name within its own block alone, and
         "zero");
 }
 
+TEST_CASE("what a statement without braces declares is not seen behind it") {
+  for (const std::string statement :
+       {"if (k > 2) float v = a.x;", "if (k > 2) ; else float v = a.x;", "do float v = a.x; while (k > 3);",
+        "while (k > 3) float v = a.x;", "for (int i = 0; i < 2; ++i) float v = a.x;"}) {
+    CAPTURE(statement);
+    CHECK(rules_of(lint(shader_of("int v = k; " + statement + " int i = v * v;"))) == "");
+  }
+}
+
 TEST_CASE("names that begin like those of samplers and images are names") {
   const std::string before =
       "uniform vec2 image_size; uniform sampler2D image, isampler0; writeonly uniform uimage2D uimages;\n"

@@ -14,7 +14,7 @@ struct GlslType {
   Base base = Base::unknown;
   int columns = 1, rows = 1;  // vecN: columns 1, rows N; matCxR
   int array_dimensions = 0;
-  std::string name;  // of a structure or opaque type
+  std::string name;  // of an opaque type; of a structure or block, its own key: no other has it
 
   bool is_floating() const { return base == Base::float32 || base == Base::float64; }
   bool is_integer() const { return base == Base::int32 || base == Base::uint32; }

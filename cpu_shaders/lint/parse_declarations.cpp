@@ -146,11 +146,8 @@ GlslType Parser::type_specifier() {
     type = structure();
   } else {
     const Token name = take();
-    type = keyword_type(name.text);
-    if (type.base == Base::unknown) {
-      type.base = structures_.count(name.text) != 0 ? Base::structure : Base::unknown;
-      type.name = name.text;
-    }
+    const Variable* named = find_variable(name.text);
+    type = named && named->is_structure ? named->type : keyword_type(name.text);
   }
   array_suffix(type);
   return type;
@@ -166,13 +163,19 @@ void Parser::array_suffix(GlslType& type) {
 
 GlslType Parser::structure() {
   expect("struct");
+  const std::string name = is("{") ? "" : take().text;
+  Variable structure;
+  structure.is_structure = true;
+  structure.type = structure_type(name);
+  members(structure.type, false);
+  if (!name.empty()) declare(name, structure);  // among its members the name is still another's
+  return structure.type;
+}
+
+GlslType Parser::structure_type(const std::string& name) {
   GlslType type = scalar_type(Base::structure);
-  type.name = is("{") ? "struct at " + std::to_string(at_) : take().text;
+  type.name = name + " at " + std::to_string(at_);
   structures_[type.name];
-  Variable name;
-  name.is_structure = true;
-  declare(type.name, name);
-  members(type, false);
   return type;
 }
 
@@ -231,8 +234,7 @@ void Parser::external_declaration() {
   if (accept(";")) return;
   if (declarator.type.base == Base::unknown && declarator.has_qualifier) {
     if (!is("{", 1)) return redeclare_precise();
-    GlslType block = scalar_type(Base::structure);
-    block.name = take().text;
+    const GlslType block = structure_type(take().text);
     const bool named = [&] {
       const std::size_t start = at_;
       skip_balanced();
@@ -349,6 +351,12 @@ void Parser::tested(Role role) {
   declare(tokens_[name].text, variable);
 }
 
+void Parser::scoped_statement() {
+  scopes_.emplace_back();
+  statement();
+  scopes_.pop_back();
+}
+
 void Parser::statement() {
   skip_attributes();
   const std::size_t first = at_;
@@ -356,8 +364,8 @@ void Parser::statement() {
   if (accept(";")) return;
   if (accept("if")) {
     condition(Role::condition);
-    statement();
-    if (accept("else")) statement();
+    scoped_statement();
+    if (accept("else")) scoped_statement();
   } else if (is("while") || is("switch")) {
     const Role role = take().text == "while" ? Role::condition : Role::selector;
     scopes_.emplace_back();
@@ -365,7 +373,7 @@ void Parser::statement() {
     statement();
     scopes_.pop_back();
   } else if (accept("do")) {
-    statement();
+    scoped_statement();
     expect("while");
     condition(Role::condition);
     expect(";");

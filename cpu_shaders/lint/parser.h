@@ -13,7 +13,7 @@
 namespace twinshade::lint_detail {
 
 struct Variable {
-  bool is_structure = false;  // no variable: the name of a structure
+  bool is_structure = false;  // no variable: the name of a structure, which type is
   GlslType type;
   bool precise = false;
   bool constant = false;        // const, initialised with a constant
@@ -65,7 +65,7 @@ class Parser {
   Parser(const TokenList& list, Listener& listener);
   void run();
 
-  // Members of each structure that has been read so far.
+  // Members of each structure and block that has been read so far, by GlslType::name.
   const std::map<std::string, std::map<std::string, Variable>>& structures() const { return structures_; }
 
  private:
@@ -94,6 +94,8 @@ class Parser {
   Declarator qualifiers_and_type();
   GlslType type_specifier();
   GlslType structure();
+  // name: the author's, or empty. Two structures of one name, each in its scope, are two types.
+  GlslType structure_type(const std::string& name);
   void members(GlslType owner, bool global);
   void function(const Declarator& declarator, const std::string& name);
   void declarators(Declarator declarator);
@@ -102,6 +104,7 @@ class Parser {
 
   // statements
   void statement();
+  void scoped_statement();  // of if, else and do: what it declares is seen there alone, with braces or without
   void block();
   void condition(Role role);
   void tested(Role role);

@@ -450,7 +450,7 @@ ExactShader make_exact(const ShaderSource& source, ExactScope scope) {
     rewrite.rename(result.renamed);
     Parser(tokens, rewrite).run();
     result.source = source;
-    result.source.version = 450;
+    result.source.version = source.es ? 450 : std::max(450, source.version);
     result.source.es = false;
     result.uses_zero = rewrite.uses_zero_;
     result.changed = result.uses_zero || !rewrite.functions_.empty();

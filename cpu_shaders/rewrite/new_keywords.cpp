@@ -13,10 +13,14 @@ constexpr Keyword kKeywords[] = {
     {"restrict", 420, 0}, {"readonly", 420, 0}, {"writeonly", 420, 0},  {"buffer", 430, 310},
 };
 
-// An extension may have made it a keyword all the same: qualifiers stand before other names, everywhere.
+// An extension may have made it a keyword all the same: qualifiers stand before other names, or as
+// layout(std430) buffer;
 bool is_name(const TokenList& list, const std::string& word) {
-  for (std::size_t i = 0; i + 1 < list.tokens.size(); ++i)
-    if (list.tokens[i].text == word && list.tokens[i + 1].kind != Token::Kind::name) return true;
+  for (std::size_t i = 1; i + 1 < list.tokens.size(); ++i) {
+    const Token &before = list.tokens[i - 1], &behind = list.tokens[i + 1];
+    const bool qualifies = behind.kind == Token::Kind::name || (before.text == ")" && behind.text == ";");
+    if (list.tokens[i].text == word && !qualifies) return true;
+  }
   return false;
 }
 

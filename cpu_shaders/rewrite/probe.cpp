@@ -5,6 +5,7 @@
 
 #include "cpu_shaders/lint/parser.h"
 #include "cpu_shaders/rewrite/exact_functions.h"
+#include "cpu_shaders/rewrite/new_keywords.h"
 #include "cpu_shaders/rewrite/token_edits.h"
 #include "cpu_shaders/translate/compile_glsl.h"
 
@@ -15,24 +16,24 @@ namespace {
 using Base = GlslType::Base;
 using Kind = Expression::Kind;
 
-constexpr const char* kPrelude = R"(flat in int probe_target;
-out uvec4 probe_value;
-out uvec4 probe_place;
-int probe_twin_count;
-void probe_twin_bits(int value, uvec4 bits, uint type, uvec2 elements) {
-  if (probe_twin_count == probe_target) {
-    probe_value = bits;
-    probe_place = uvec4(uint(value + 1), 0u, type | elements.x, elements.y);
+constexpr const char* kPrelude = R"(flat in int twinshadeprobe_target;
+out uvec4 twinshadeprobe_value;
+out uvec4 twinshadeprobe_place;
+int twinshadeprobe_count;
+void twinshadeprobe_bits(int value, uvec4 bits, uint type, uvec2 elements) {
+  if (twinshadeprobe_count == twinshadeprobe_target) {
+    twinshadeprobe_value = bits;
+    twinshadeprobe_place = uvec4(uint(value + 1), 0u, type | elements.x, elements.y);
   }
-  ++probe_twin_count;
-  probe_place.y = uint(probe_twin_count);
+  ++twinshadeprobe_count;
+  twinshadeprobe_place.y = uint(twinshadeprobe_count);
 }
-void probe_twin_globals();
+void twinshadeprobe_globals();
 )";
 
-constexpr const char *kGlobals = "probe_twin_globals", *kThrough = "probe_twin_through";
+constexpr const char *kGlobals = "twinshadeprobe_globals", *kThrough = "twinshadeprobe_through";
 
-// Overloads of probe_twin, which tells, and of probe_twin_through, which also gives back what it was given.
+// Overloads of twinshadeprobe_tell, and of twinshadeprobe_through, which also gives back what it was given.
 std::string probe_functions() {
   std::string text = kPrelude;
   struct Row {
@@ -45,9 +46,9 @@ std::string probe_functions() {
       const std::string padding = n == 1 ? ", 0, 0, 0" : n == 2 ? ", 0, 0" : n == 3 ? ", 0" : "";
       const std::string four = scalar == 0 ? "floatBitsToUint(vec4(v" + padding + "))" : "uvec4(v" + padding + ")";
       const std::string told = std::to_string(scalar | n << 2) + "u";
-      text +=
-          "void probe_twin(int i, uvec2 e, " + type + " v) { probe_twin_bits(i, " + four + ", " + told + ", e); }\n";
-      text += type + " " + kThrough + "(int i, " + type + " v) { probe_twin(i, uvec2(0u), v); return v; }\n";
+      text += "void twinshadeprobe_tell(int i, uvec2 e, " + type + " v) { twinshadeprobe_bits(i, " + four + ", " +
+              told + ", e); }\n";
+      text += type + " " + kThrough + "(int i, " + type + " v) { twinshadeprobe_tell(i, uvec2(0u), v); return v; }\n";
     }
     ++scalar;
   }
@@ -56,7 +57,7 @@ std::string probe_functions() {
       const std::string type = "mat" + std::to_string(columns) + (rows == columns ? "" : "x" + std::to_string(rows));
       text += type + " " + kThrough + "(int i, " + type + " m) {";
       for (int c = 0; c < columns; ++c)
-        text += " probe_twin(i + " + std::to_string(c) + ", uvec2(0u), m[" + std::to_string(c) + "]);";
+        text += " twinshadeprobe_tell(i + " + std::to_string(c) + ", uvec2(0u), m[" + std::to_string(c) + "]);";
       text += " return m; }\n";
     }
   return text;
@@ -120,7 +121,9 @@ class Probe : public Listener {
     if (name == "main")
       edits_.behind(
           body_first,
-          std::string(" probe_twin_count = 0; probe_value = uvec4(0u); probe_place = uvec4(0u); ") + kGlobals + "();");
+          std::string(
+              " twinshadeprobe_count = 0; twinshadeprobe_value = uvec4(0u); twinshadeprobe_place = uvec4(0u); ") +
+              kGlobals + "();");
   }
 
   void expression(const Expression& e, Role role) override {
@@ -352,11 +355,11 @@ class Probe : public Listener {
     return !only_ || only_->count(statements_.size() - 1) != 0;
   }
 
-  // Calls of probe_twin for a value of any type. path: how it is reached from the target, cut where loops go through
-  // elements.
+  // Calls of twinshadeprobe_tell for a value of any type. path: how it is reached from the target, cut where loops go
+  // through elements.
   std::string value(const std::string& text, std::vector<std::string> path, const GlslType& type) {
     if (type.array_dimensions > 0) {
-      const std::string i = "probe_" + std::to_string(path.size() - 1);
+      const std::string i = "twinshadeprobe_" + std::to_string(path.size() - 1);
       path.emplace_back();
       const std::string inner = value(text + "[" + i + "]", path, element_type(type));
       if (inner.empty()) return "";
@@ -379,8 +382,8 @@ class Probe : public Listener {
       const std::string column = type.is_matrix() ? "[" + std::to_string(c) + "]" : "";
       std::vector<std::string> name = path;
       name.back() += column;
-      told += " probe_twin(" + std::to_string(values_.size()) + ", " + elements(path.size() - 1) + ", " + text +
-              column + ");";
+      told += " twinshadeprobe_tell(" + std::to_string(values_.size()) + ", " + elements(path.size() - 1) + ", " +
+              text + column + ");";
       values_.push_back({statements_.size(), std::move(name)});
     }
     return told;
@@ -388,8 +391,9 @@ class Probe : public Listener {
 
   // Where the loops around are, as kProbePlace has it.
   static std::string elements(std::size_t loops) {
-    const std::string third = loops > 2 ? "uint(probe_2) << 16" : "0u";
-    const std::string first = loops > 0 ? "uint(probe_0)" : "0u", second = loops > 1 ? " | uint(probe_1) << 16" : "";
+    const std::string third = loops > 2 ? "uint(twinshadeprobe_2) << 16" : "0u";
+    const std::string first = loops > 0 ? "uint(twinshadeprobe_0)" : "0u",
+                      second = loops > 1 ? " | uint(twinshadeprobe_1) << 16" : "";
     return "uvec2(" + third + ", " + first + second + ")";
   }
 
@@ -401,7 +405,7 @@ class Probe : public Listener {
   // A variable was told when it was stored.
   void result(const Expression& returned) {
     if (returned.kind == Kind::variable || returned.constant) return;
-    returned_ = {"probe_twin_result", "result of " + function_, returned.type, 0, 0, false, computes(returned)};
+    returned_ = {"twinshadeprobe_result", "result of " + function_, returned.type, 0, 0, false, computes(returned)};
     if (is_bare_sequence(returned)) edits_.parenthesize(returned.first, returned.last);
     returned_value_ = edits_.text(returned.outer_first, returned.outer_last);
   }
@@ -435,8 +439,8 @@ ProbedShader add_probes(const ShaderSource& source, const std::optional<std::set
   result.values = std::move(probe.values_);
   result.complete = probe.complete_;
   std::string text;
-  if (source.es) {  // where every output would need a location
-    result.source.version = 450;
+  if (source.es) {  // where every output would need a location; in 3.30 its names are no keywords yet
+    result.source.version = new_keywords(tokens, source).empty() ? 450 : 330;
     result.source.es = false;
   } else {
     text = probe.edits_.head(source);

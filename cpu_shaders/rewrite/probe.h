@@ -25,14 +25,15 @@ struct ProbedValue {
   std::vector<std::string> name;  // {"sum"}, {"s.second"}, {"P[2]"}; {"w", ".x"} where an element stands between
 };
 
+// All that is added has names of this beginning, which no shader has by chance; drawing refuses twinshade_ itself.
 // The added input (flat int): which of the values, counted from 0 in the order of execution, goes out.
-inline constexpr const char* kProbeTarget = "probe_target";
+inline constexpr const char* kProbeTarget = "twinshadeprobe_target";
 // The added outputs (uvec4): up to four components by bit pattern; then the ProbedValue + 1 (0: there were fewer
 // values), how many values there are in all, Scalar | components << 2 | third element << 16, first element | second <<
 // 16 (elements of the arrays that stand between the parts of its name). Discarding is left out, so that every row
 // answers; in functions with loops that give no value, it returns.
-inline constexpr const char* kProbeValue = "probe_value";
-inline constexpr const char* kProbePlace = "probe_place";
+inline constexpr const char* kProbeValue = "twinshadeprobe_value";
+inline constexpr const char* kProbePlace = "twinshadeprobe_place";
 
 struct ProbedShader {
   ShaderSource source;  // every line keeps its file and number

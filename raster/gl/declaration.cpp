@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "cpu_shaders/source/preprocess.h"
+#include "raster/gl/new_keywords.h"
 
 namespace twinshade::gl {
 namespace {
@@ -216,15 +217,15 @@ std::vector<Declaration> split_declarations(const ShaderSource& source, const st
 }
 
 std::vector<std::string> initialized_uniforms(const ShaderSource& source) {
-  const TokenText text = tokenize(source, preprocess(source));
-  const std::vector<Token>& tokens = text.tokens;
+  std::vector<Token> tokens = tokenize(source, preprocess(source)).tokens;
+  rename_new_keywords(source, tokens);
   std::vector<std::string> names;
   for (const Declaration& d : split_declarations(source, tokens)) {
     if (d.kind != Declaration::Kind::variables ||
         std::none_of(d.qualifiers.begin(), d.qualifiers.end(), [&](auto q) { return tokens[q].text == "uniform"; }))
       continue;
     for (const Declarator& item : d.declarators)
-      if (item.equals) names.push_back(tokens[item.name].text);
+      if (item.equals) names.push_back(author_name(tokens[item.name].text));
   }
   return names;
 }

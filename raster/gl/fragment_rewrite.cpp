@@ -1,7 +1,6 @@
 #include "raster/gl/fragment_rewrite.h"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <optional>
 #include <set>
@@ -10,6 +9,7 @@
 #include "cpu_shaders/source/preprocess.h"
 #include "raster/gl/constant_integer.h"
 #include "raster/gl/declaration.h"
+#include "raster/gl/new_keywords.h"
 
 namespace twinshade::gl {
 namespace {
@@ -52,7 +52,7 @@ class Rewriter {
   FragmentShader run() {
     result_.extensions = text_.extensions;
     refuse_own_names();
-    rename_new_keywords();
+    rename_new_keywords(source_, tokens_);
     scan_words();
     bool has_main = false;
     for (const Declaration& d : split_declarations(source_, tokens_)) {
@@ -93,18 +93,6 @@ class Rewriter {
     for (std::size_t i = 0; i < tokens_.size(); ++i)
       if (tokens_[i].kind == TokenKind::word && tokens_[i].text.rfind(kPrefix, 0) == 0)
         fail(i, "names that begin with " + std::string(kPrefix) + " are reserved: rename " + tokens_[i].text);
-  }
-
-  // Words that became keywords after the shader's version but that its author may use as names.
-  void rename_new_keywords() {
-    std::set<std::string> keywords;
-    if (!source_.es && source_.version < 400) keywords.insert({"sample", "patch", "precise", "subroutine"});
-    if (!source_.es && source_.version < 420) keywords.insert({"coherent", "restrict", "readonly", "writeonly"});
-    if (source_.es ? source_.version < 310 : source_.version < 430) keywords.insert({"buffer", "shared"});
-    if (source_.es) keywords.insert({"precise"});
-    if (!text_.extensions.empty()) return;  // then they may be keywords all the same
-    for (Token& token : tokens_)
-      if (keywords.count(token.text) != 0) token.text = kNamePrefix + token.text;
   }
 
   void scan_words() {
@@ -272,7 +260,7 @@ class Rewriter {
           input.array_length = std::uint32_t(*length);
         }
         if (words.count("flat") || type->scalar != Scalar::f32) input.interpolation = "flat";
-        if (words.count("noperspective"))
+        if (style_ == InputStyle::globals && words.count("noperspective"))
           fail(open + 1 + item.name, "noperspective needs native attributes: exact ones are perspective-correct");
         input.used = count_[input.name] > 1;
         members.push_back(input);
@@ -373,19 +361,6 @@ class Rewriter {
 };
 
 }  // namespace
-
-std::string author_name(std::string name) {
-  const std::string_view prefix = kNamePrefix;
-  const auto within_word = [&](std::size_t at) {
-    return at > 0 && (std::isalnum(static_cast<unsigned char>(name[at - 1])) != 0 || name[at - 1] == '_');
-  };
-  for (std::size_t at = 0; (at = name.find(prefix, at)) != std::string::npos;)
-    if (within_word(at))
-      ++at;
-    else
-      name.erase(at, prefix.size());
-  return name;
-}
 
 FragmentShader rewrite_fragment_shader(const ShaderSource& source, InputStyle style) {
   return Rewriter(source, style).run();

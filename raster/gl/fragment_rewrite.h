@@ -56,14 +56,6 @@ inline constexpr const char* kFragCoord = "twinshade_FragCoord";
 inline constexpr const char* kFrontFacing = "twinshade_FrontFacing";
 inline constexpr const char* kPrimitiveId = "twinshade_PrimitiveID";  // not InputStyle::varyings
 
-// Words that became keywords after the shader's version are names that its author may use: in the rewritten text they
-// have this prefix.
-inline constexpr const char* kNamePrefix = "twinshade_name_";
-
-// What the author calls a variable, a member or a block of the rewritten text: bundles, reflection and results name it
-// so.
-std::string author_name(std::string name);
-
 // UserError "file:line: ..." for what cannot be rewritten: struct inputs, inputs of unknown size, interpolateAt* and
 // noperspective with InputStyle::globals, input blocks with InputStyle::varyings ...
 FragmentShader rewrite_fragment_shader(const ShaderSource& source, InputStyle style);

@@ -4,6 +4,7 @@
 
 #include "cpu_shaders/rewrite/make_exact.h"
 #include "cpu_shaders/source/preprocess.h"
+#include "raster/gl/new_keywords.h"
 
 namespace twinshade::gl {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "raster/gl/declaration.h"
+#include "raster/gl/new_keywords.h"
 
 namespace twinshade::gl {
 namespace {

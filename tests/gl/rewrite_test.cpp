@@ -8,6 +8,7 @@
 #include "raster/gl/constant_integer.h"
 #include "raster/gl/declaration.h"
 #include "raster/gl/fragment_rewrite.h"
+#include "raster/gl/new_keywords.h"
 #include "tests/gl/test_shaders.h"
 
 using namespace twinshade;
@@ -186,6 +187,25 @@ TEST_CASE("names that later versions made keywords are renamed in older shaders"
   CHECK(author_name("twinshade_name_buffer[2].twinshade_name_sample") == "buffer[2].sample");
   CHECK(author_name("a_twinshade_name_b") == "a_twinshade_name_b");
   CHECK(contains(rejection("float twinshade_name_sample;\n" + kMain), "are reserved: rename twinshade_name_sample"));
+  // As names of types, and where an extension, which may make them keywords, has not done so.
+  const std::string type =
+      "#version 330\nuniform float sample = 2.0; out float c; struct buffer { float a; };\n"
+      "buffer make(float a) { buffer b; b.a = a; return b; }\nvoid main() { buffer b = make(sample); c = b.a; }\n";
+  CHECK(contains(tokens_of(globals(type).text), "twinshade_name_buffer b = make ( twinshade_name_sample ) ;"));
+  CHECK(initialized_uniforms(shader(type)) == std::vector<std::string>{"sample"});
+  const std::string extended =
+      "#version 330\n#extension GL_ARB_gpu_shader5 : enable\n"
+      "#extension GL_ARB_shader_storage_buffer_object : enable\nlayout(std430) buffer;\nout float c;\n"
+      "buffer B { float b; };\nvoid main() { precise float patch = b; c = patch; }\n";
+  CHECK(contains(tokens_of(globals(extended).text), "layout ( std430 ) buffer ; float c ; buffer B { float b ; } ;"));
+  CHECK(contains(tokens_of(globals(extended).text), "precise float twinshade_name_patch = b ;"));
+  for (const std::string version : {"330", "310 es", "320 es"})
+    CHECK(contains(tokens_of(globals("#version " + version + "\nvoid main() { precise float a = 1.0; }").text),
+                   "{ precise float a"));
+  CHECK(contains(tokens_of(globals("#version 330\nlayout(shared) uniform B { float b; }; out float c;\n"
+                                   "void main() { c = b; }\n")
+                               .text),
+                 "layout ( shared ) uniform B"));
   CHECK(contains(tokens_of(globals("precise out vec4 c;\nvoid main() { precise float a = 1.0; c = vec4(a); }").text),
                  "precise float a"));
 }
@@ -216,6 +236,15 @@ TEST_CASE("input blocks become structs, or globals where they have no name") {
   CHECK(shader.text.find("struct Surface {") != std::string::npos);
   CHECK(shader.text.find("location") == std::string::npos);
   CHECK(shader.text.find("Loose") == std::string::npos);
+}
+
+TEST_CASE("noperspective is refused where attributes are interpolated exactly, and means nothing to values in rows") {
+  const std::string text = "in B { noperspective float u; };\nout float o;\nvoid main() { o = u; }\n";
+  CHECK(rejection(text) == "test.frag:1: noperspective needs native attributes: exact ones are perspective-correct");
+  const FragmentShader rows = rewrite_fragment_shader(shader(text), InputStyle::rows);
+  CHECK(contains(tokens_of(rows.text), "float u ; float o ;"));
+  REQUIRE(rows.inputs.size() == 1);
+  CHECK(rows.inputs[0].name == "u");
 }
 
 TEST_CASE("what cannot be rewritten is refused by name, file and line") {

@@ -286,6 +286,37 @@ TEST_CASE("blocks, structures, arrays and overloads are followed") {
                                 before))) == "precise");
 }
 
+TEST_CASE("a structure hides another of its name within its own block alone, and has its own members") {
+  const std::string outer = "struct T { float a, b; };\n";
+  const std::string body = "T t = T(a.x, a.y); color.x = (t.a - t.b) + t.b;";
+  const auto operators = [](const std::vector<LintFinding>& findings) {
+    std::string list;
+    for (const LintFinding& finding : findings) list += finding.operation;
+    return list;
+  };
+  const std::string hidden = outer + "void f() { struct T { int a, b; } t; t.a = k; }\n";
+  CHECK(operators(lint(shader_of(body, outer))) == "+");
+  CHECK(operators(lint(shader_of(body, hidden))) == "+");
+  const std::string whole = "struct T { int a; };\nvoid f() { struct T { float a; } t; t.a = 1.0; }\n";
+  CHECK(rules_of(lint(shader_of("T t = T(k); int i = t.a * t.a;", whole))) == "");
+  // Within a structure its name is still that of the one around.
+  const std::string nested = "struct T { T inner; int a; }; T t; t.a *= 2; t.inner.a *= a.y;";
+  CHECK(operators(lint(shader_of(nested, outer))) == "*=");
+  // Two in blocks side by side; the zeros of members by their own positions.
+  CHECK(rules_of(lint(shader_of("{ struct S { float a; } s = S(a.x); color.x = s.a; }\n"
+                                "{ struct S { int b; float a; } s = S(k, 0.0); precise float x = a.x + s.a; }"))) ==
+        "zero");
+}
+
+TEST_CASE("what a statement without braces declares is not seen behind it") {
+  for (const std::string statement :
+       {"if (k > 2) float v = a.x;", "if (k > 2) ; else float v = a.x;", "do float v = a.x; while (k > 3);",
+        "while (k > 3) float v = a.x;", "for (int i = 0; i < 2; ++i) float v = a.x;"}) {
+    CAPTURE(statement);
+    CHECK(rules_of(lint(shader_of("int v = k; " + statement + " int i = v * v;"))) == "");
+  }
+}
+
 TEST_CASE("names that begin like those of samplers and images are names") {
   const std::string before =
       "uniform vec2 image_size; uniform sampler2D image, isampler0; writeonly uniform uimage2D uimages;\n"

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "cpu_shaders/rewrite/make_exact.h"
+#include "cpu_shaders/rewrite/probe.h"
 #include "cpu_shaders/translate/compile_glsl.h"
 
 namespace twinshade {
@@ -235,6 +236,17 @@ TEST_CASE("constant structures whose members are zeros become variables") {
   }
 }
 
+TEST_CASE("members are those of the structure that is visible, not of another of its name") {
+  const std::string of_floats = "struct T { float a; };\nvoid f() { struct T { int a; } t; t.a = k; }\n";
+  const std::string of_ints = "struct T { int a; };\nvoid f() { struct T { float a; } t; t.a = a.x; }\n";
+  const auto square = [](const std::string& before) {
+    const std::string text = make_exact(shader_of("T t; color.x = float(t.a * t.a);", before)).source.text;
+    return text.find("exact_multiply(", text.find("void main")) != text.npos;
+  };
+  CHECK(square(of_floats));
+  CHECK(!square(of_ints));
+}
+
 TEST_CASE("the scope of constants leaves the rest alone") {
   CHECK(body_of("float x = a.x * (0.1 * 3.0) + 0.0;", ExactScope::constants) ==
         "floatx=a.x*(exact_multiply(0.1,3.0))+0.0;");
@@ -313,6 +325,19 @@ TEST_CASE("GLSL ES and older versions are rewritten as GLSL 4.50") {
                      "in vec4 a; out vec4 c;\nvoid main() { precise vec4 b = a * a; c = b; }\n",
                      "extended.frag");
   CHECK_NOTHROW(CHECK(make_exact(extended).left.empty()));
+  const ShaderSource buffers =
+      resolve_shader("buffers",
+                     "#version 330\n#extension GL_ARB_shader_storage_buffer_object : enable\nlayout(std430) buffer;\n"
+                     "buffer B { vec4 b; }; in vec4 a; out vec4 c;\nvoid main() { c = a * b; }\n",
+                     "buffers.frag");
+  CHECK_NOTHROW(CHECK(make_exact(buffers).left.empty()));
+}
+
+TEST_CASE("what a later version than 4.50 allows is still allowed") {
+  const ShaderSource later = resolve_shader(
+      "later", "#version 460 core\nout vec4 c; in float a; void main() { c = vec4(a * 2.0 + 1.0); };\n", "later.frag");
+  CHECK_NOTHROW(CHECK(make_exact(later).left.empty()));
+  CHECK_NOTHROW(compile_glsl(add_probes(later).source));
 }
 
 TEST_CASE("a shader that includes exact functions itself gets each once") {

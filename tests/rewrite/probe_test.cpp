@@ -199,6 +199,16 @@ TEST_CASE("returned arrays are told") {
   CHECK(names(shader, 3, "result of f"));
 }
 
+TEST_CASE("of a structure that hides another its own members are told") {
+  const ShaderSource source = resolve_shader("t",
+                                             "in float a; out float c; struct T { float x; };\n"
+                                             "void main() { struct T { float r; }; T t = T(sin(a)); c = t.r; }\n",
+                                             "t.frag");
+  const ProbedShader shader = add_probes(source);
+  CHECK_NOTHROW(compile_glsl(shader.source));
+  CHECK(names(shader, 2, "t"));
+}
+
 TEST_CASE("integer statements are told, and values by member, column and element") {
   const ProbedShader shader = add_probes(everything());
   const ShaderSource integers = resolve_shader(
@@ -219,16 +229,28 @@ TEST_CASE("integer statements are told, and values by member, column and element
   }
 }
 
-TEST_CASE("a shader's own probe and ES without a precision yet are no obstacle") {
+TEST_CASE("a shader's own probe, ES without a precision yet and names that are keywords elsewhere are no obstacle") {
   const ShaderSource own = resolve_shader(
       "t", "in vec4 a; out vec4 c; void probe(int i, float x) {} void main() { probe(1, a.x); c = a * 2.0; }\n",
       "t.frag");
   CHECK_NOTHROW(compile_glsl(add_probes(own).source));
+  const ShaderSource names_of_probes =
+      resolve_shader("t",
+                     "in float probe_value; out float probe_place;\n"
+                     "void main() { float probe_twin = 1.0; probe_place = sin(probe_value) * probe_twin; }\n",
+                     "t.frag");
+  CHECK_NOTHROW(compile_glsl(add_probes(names_of_probes).source));
   const ShaderSource es = resolve_shader("t",
                                          "#version 300 es\nprecision highp float;\nin vec4 a; out vec4 c;\n"
                                          "void main() { c = sin(a) + gl_FragCoord.x; }\n",
                                          "t.frag");
   CHECK_NOTHROW(compile_glsl(frag_coord_as_input(es)));
+  const ShaderSource keyword = resolve_shader("t",
+                                              "#version 300 es\nprecision highp float;\nin float a; out float c;\n"
+                                              "void main() { float buffer = sin(a); c = buffer; }\n",
+                                              "t.frag");
+  CHECK_NOTHROW(compile_glsl(add_probes(keyword).source));
+  CHECK(names(add_probes(keyword), 4, "buffer"));
   const ShaderSource redeclared = resolve_shader(
       "t", "in vec4 a; in vec4 gl_FragCoord; out vec4 c;\nvoid main() { c = a * gl_FragCoord.x; }\n", "t.frag");
   CHECK_NOTHROW(compile_glsl(frag_coord_as_input(redeclared)));

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <filesystem>
 #include <memory>
 
 #include "app/machines.h"
@@ -25,14 +24,23 @@ struct ExperimentVerb {
   bool csv = false;
 
   int run();
+  std::vector<std::string> files_written(const ExperimentInfo& experiment) const;
 };
+
+std::vector<std::string> ExperimentVerb::files_written(const ExperimentInfo& experiment) const {
+  std::vector<std::string> files{name + ".csv"};
+  for (const std::string& picture : experiment.pictures(options))
+    for (std::string& file : picture_files(picture)) files.push_back(std::move(file));
+  return files;
+}
 
 int ExperimentVerb::run() {
   const ExperimentInfo& experiment = find_experiment(name);
   if (!options.probes.empty() && !experiment.takes_probes)
     throw UserError("experiment " + name + " takes no probe, but '" + options.probes.front() + "' is given");
   apply(common);
-  const Output output(common);
+  Output output(common);
+  if (!folder.empty()) output.claim(folder, files_written(experiment));
   output.require_not_read(files_among(options.probes, environment_names()));
   if (!folder.empty()) require_writable_folder(folder);
   options.seed = common.seed;
@@ -50,7 +58,9 @@ int ExperimentVerb::run() {
   output.text(csv ? result.rows.csv() : table_text(result.rows));
   for (const std::string& note : result.notes) output.note(note);
   if (!folder.empty()) {
-    write_file((std::filesystem::path(folder) / (name + ".csv")).string(), result.rows.csv());
+    write_file(output.claimed(name + ".csv"), result.rows.csv());
+    for (const Picture& picture : result.pictures)
+      for (const std::string& file : picture_files(picture.name)) output.claimed(file);  // ends what claimed too little
     write_pictures(folder, result.pictures, output);
   }
   output.json({{"experiment", name},

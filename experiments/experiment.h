@@ -84,6 +84,8 @@ struct ExperimentInfo {
   std::string_view name;
   std::string_view description;
   bool takes_probes;
+  // Names of all pictures that run() may give: what they would replace can be told before it runs.
+  std::vector<std::string> (*pictures)(const ExperimentOptions&);
   // Independent of the number of threads: the same rows, bit by bit. UserError for names that do not exist, with the
   // nearest ones.
   ExperimentResult (*run)(const ExperimentOptions&);

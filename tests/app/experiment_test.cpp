@@ -48,4 +48,22 @@ TEST_CASE("drivers filter flat maps as written out but for rounding, and cubes w
   CHECK(rows == 3 * (3 + 3 + 2));  // storages; filters of cube, cube_dx9, dual_paraboloid
 }
 
+TEST_CASE("every file of a folder of results is one that was to be expected") {
+  const Folder folder;
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"frobenius", "--basis", "sh2"},
+        {"wobble", "--basis", "sh2", "--samples", "2"},
+        {"figures", "--basis", "h4,sh2"},
+        {"basis-imse", "--basis", "h4", "--samples", "10"},
+        {"sphere-map-mse", "--map", "cube", "--map-width", "4", "--samples", "100"},
+        {"probe-rmse", "constant", "--basis", "sh2"}}) {
+    std::vector<std::string> arguments{"experiment"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    arguments.insert(arguments.end(), {"-o", folder / "."});
+    const Run run = run_twinshade(arguments);
+    CHECK_MESSAGE(run.code == 0, run.err);
+    CHECK(std::filesystem::exists(folder / (options.front() + ".csv")));
+  }
+}
+
 }  // namespace twinshade

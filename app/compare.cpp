@@ -123,6 +123,7 @@ class CompareRun {
     write_pictures(shader, a, reference);
     for (std::size_t i = 1; i < verb_.backends.size(); ++i) {
       const std::string& b = verb_.backends[i];
+      remove_difference_picture(shader, reference_of(b, a), b);
       try {
         if (b == "softpipe")
           compare_on_softpipe(shader, a, reference);
@@ -154,11 +155,29 @@ class CompareRun {
     row.hash_a = frame_hash(frame_a), row.hash_b = frame_hash(frame_b);
     write_pictures(shader, b, frame_b);
     if (!row.comparison.equal()) {
-      if (!verb_.folder.empty() && scope == CompareScope::all)
-        write_difference_picture(output_.claimed(difference_name(picture_of(shader), a, b)), frame_a, frame_b);
+      if (!verb_.folder.empty())
+        write_difference_picture(output_.claimed(difference_name(picture_of(shader), a, b)), frame_a,
+                                 scope == CompareScope::all ? frame_b : with_colors_where_covered(frame_a, frame_b));
       explain(shader, row, frame_a, frame_b, scope);
     }
     rows_.push_back(std::move(row));
+  }
+
+  // What only shades, as a frame: all else is as in the frame that it was given.
+  static Frame with_colors_where_covered(Frame frame, const Frame& shaded) {
+    for (std::size_t i = 0; i < frame.coverage.size(); ++i)
+      if (frame.coverage[i])
+        std::copy_n(shaded.color.begin() + std::ptrdiff_t(i * 4), 4, frame.color.begin() + std::ptrdiff_t(i * 4));
+    return frame;
+  }
+
+  // An earlier run's would stay beside frames that are equal now.
+  void remove_difference_picture(const Shading& shader, const std::string& a, const std::string& b) const {
+    if (verb_.folder.empty()) return;
+    const std::string path = output_.claimed(difference_name(picture_of(shader), a, b));
+    std::error_code code;
+    std::filesystem::remove(path, code);
+    if (code) throw UserError(path + ": cannot be removed: " + code.message());
   }
 
   // Draws again with the attributes captured, so that the first layer can be told and the inputs named. The counts of

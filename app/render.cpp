@@ -37,6 +37,8 @@ struct RenderVerb {
           "softpipe draws no picture of its own: it shades what the CPU covered (twinshade compare --on cpu,softpipe)");
     if (wants_all(shading) || (shading.shader.empty() && shading.techniques.size() != 1))
       throw UserError("--technique: render draws one; name one technique");
+    if (shading.maps.size() != 1 || shading.maps.front() == "all")
+      throw UserError("--map: render draws one; name one map");
     if (shading.light == LightSource::all)
       throw UserError("--light all: render draws one; name lightmap, vertex or volume");
     if (!file.empty()) {

@@ -122,6 +122,11 @@ TEST_CASE("malformed options are refused") {
   check_refused({"compare", "quad", "--on", "softpipe,cpu"}, {"cpu first"});
 }
 
+TEST_CASE("options that would mean nothing are refused, not ignored") {
+  check_refused({"render", "quad", "--technique", "unc3", "--map", "cube,dual_paraboloid"}, {"--map", "name one map"});
+  check_refused({"render", "quad", "--technique", "unc3", "--map", "all"}, {"--map", "name one map"});
+}
+
 TEST_CASE("an instruction set that is unknown, or that TWINSHADE_ISA rules out, is refused") {
   ::setenv("TWINSHADE_ISA", "sse9", 1);
   check_refused(small_quad({"render"}, {}), {"TWINSHADE_ISA=sse9", "baseline, avx2, avx512"});

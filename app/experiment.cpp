@@ -48,9 +48,12 @@ int ExperimentVerb::run() {
   if (!options.on.empty()) require_backends(options.on);
   if (options.driver_filters && options.on.empty())
     throw UserError("--driver-filters: name the machines that read with --on, as --on cpu,egl");
+  Provenance provenance(common);
   Machines machines(CpuOptions(), true);
   options.draw = [&](const std::string& machine, const Bundle& bundle, const ShaderSource& source) {
-    return machines.draw(machine, bundle, source, DrawOptions());
+    Frame frame = machines.draw(machine, bundle, source, DrawOptions());
+    provenance.add(machine, frame);
+    return frame;
   };
   options.progress = [&](const std::string& line) { output.progress(name + ": " + line); };
   const ExperimentResult result = experiment.run(options);
@@ -64,7 +67,7 @@ int ExperimentVerb::run() {
     write_pictures(folder, result.pictures, output);
   }
   output.json({{"experiment", name},
-               {"provenance", Provenance(common).json()},
+               {"provenance", provenance.json()},
                {"rows", json_rows(result.rows)},
                {"notes", result.notes}});
   return 0;

@@ -19,6 +19,8 @@ TEST_CASE("sphere maps are read alike on the CPU and by OpenGL, to the bit") {
   REQUIRE_MESSAGE(run.code == 0, run.err);
   const auto rows = run.json()["rows"];
   CHECK(rows.size() >= 6);
+  CHECK(run.json()["provenance"]["backends"]["cpu"].contains("isa"));
+  if (why_missing("egl").empty()) CHECK(run.json()["provenance"]["backends"]["egl"].contains("GL_VERSION"));
   for (const auto& row : rows) CHECK_MESSAGE(row["values_differ"] == 0, row.dump());
 }
 

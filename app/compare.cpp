@@ -9,6 +9,7 @@
 #include "app/dialect.h"
 #include "app/machines.h"
 #include "app/mismatch.h"
+#include "app/option_rules.h"
 #include "app/output.h"
 #include "app/provenance.h"
 #include "app/subject.h"
@@ -374,6 +375,8 @@ Verb add_compare(CLI::App& app) {
   const auto verb = std::make_shared<CompareVerb>();
   add_subject_options(*command, verb->subject);
   add_shading_options(*command, verb->shading, "all");
+  require_one_shader(*command);
+  require_second_environment(*command);
   command
       ->add_option("--on", verb->backends,
                    "backends of cpu, egl, osmesa, softpipe, gpu; the first is the reference (default: cpu,egl,osmesa)")

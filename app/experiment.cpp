@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <memory>
 
 #include "app/machines.h"
@@ -22,10 +23,25 @@ struct ExperimentVerb {
   ExperimentOptions options;
   std::string name, folder;
   bool csv = false;
+  std::vector<const CLI::Option*> choosing;  // options that not every experiment takes
 
   int run();
+  void require_taken(const ExperimentInfo& experiment) const;
   std::vector<std::string> files_written(const ExperimentInfo& experiment) const;
 };
+
+void ExperimentVerb::require_taken(const ExperimentInfo& experiment) const {
+  if (!options.probes.empty() && !experiment.takes_probes)
+    throw UserError("experiment " + name + " takes no probe, but '" + options.probes.front() + "' is given");
+  std::string taken;
+  for (const std::string_view option : experiment.options)
+    if (!option.empty()) taken += (taken.empty() ? "" : ", ") + std::string(option);
+  for (const CLI::Option* option : choosing)
+    if (option->count() > 0 && std::find(experiment.options.begin(), experiment.options.end(),
+                                         "--" + option->get_lnames().front()) == experiment.options.end())
+      throw UserError(fmt::format("experiment {} takes no --{}: leave it out; of such options it takes {}", name,
+                                  option->get_lnames().front(), taken));
+}
 
 std::vector<std::string> ExperimentVerb::files_written(const ExperimentInfo& experiment) const {
   std::vector<std::string> files{name + ".csv"};
@@ -36,8 +52,7 @@ std::vector<std::string> ExperimentVerb::files_written(const ExperimentInfo& exp
 
 int ExperimentVerb::run() {
   const ExperimentInfo& experiment = find_experiment(name);
-  if (!options.probes.empty() && !experiment.takes_probes)
-    throw UserError("experiment " + name + " takes no probe, but '" + options.probes.front() + "' is given");
+  require_taken(experiment);
   apply(common);
   Output output(common);
   if (!folder.empty()) output.claim(folder, files_written(experiment));
@@ -109,6 +124,9 @@ Verb add_experiment(CLI::App& app) {
   command->add_flag("--relative", verb->options.relative, "errors relative to the signal as well");
   command->add_flag("--clamp-radiance", verb->options.clamp_radiance,
                     "accept probes with NaN, infinite or negative radiance");
+  for (const char* option : {"--basis", "--map", "--map-width", "--order", "--on", "--driver-filters", "--samples",
+                             "--relative", "--clamp-radiance"})
+    verb->choosing.push_back(command->get_option(option));
   command->add_flag("--csv", verb->csv, "print comma-separated values instead of a table");
   command->add_option("-o", verb->folder, "write NAME.csv, NAME.svg, NAME.png and further pictures into this folder")
       ->type_name("DIR");

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "app/option_rules.h"
 #include "app/output.h"
 #include "app/provenance.h"
 #include "app/subject.h"
@@ -52,6 +53,7 @@ Verb add_bake(CLI::App& app) {
   CLI::App* command = app.add_subcommand("bake", "light a scene and write all that a renderer needs as one file");
   const auto verb = std::make_shared<BakeVerb>();
   add_subject_options(*command, verb->subject);
+  require_second_environment(*command);
   add_technique_option(*command, verb->shading, "all");
   add_light_option(*command, verb->shading);
   command->add_option("-o,--output", verb->file, "bundle file to write")->type_name("BUNDLE")->required();

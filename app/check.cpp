@@ -78,14 +78,18 @@ struct CheckVerb {
     });
     Json list = Json::array();
     std::vector<JUnitCase> cases;
+    Provenance provenance(common);
     for (const CheckedShader& shader : results) {
+      if (!shader.hash.empty()) provenance.add_shader(shader.path, shader.hash);
+      for (const BackendCheck& check : shader.backends)
+        if (check.not_run.empty()) provenance.add(backend_name(check.target.backend), check.provenance);
       list.push_back(check_json(shader, options.make_exact));
       cases.push_back(check_junit(shader, options.make_exact));
       for (const std::string& file : shader.files) remember(file);
       remember(shader.path);
       remember(options.inputs_file.empty() ? shader.path + ".inputs" : options.inputs_file);
     }
-    output.json({{"provenance", Provenance(common).json()},
+    output.json({{"provenance", provenance.json()},
                  {"rows", options.generate.rows},
                  {"make_exact", options.make_exact},
                  {"shaders", list}});

@@ -201,13 +201,14 @@ Json check_json(const CheckedShader& shader, bool make_exact) {
   Json backends = Json::array();
   for (const BackendCheck& check : shader.backends) {
     const RowComparison& c = check.comparison;
-    backends.push_back({{"name", backend_name(check.target.backend)},
-                        {"not_run", check.not_run.empty() ? Json(nullptr) : Json(check.not_run)},
-                        {"rows", c.compared},
-                        {"rows_differ", c.differ},
-                        {"denormal_only", c.denormal_only},
-                        {"max_ulp", ulp_json(c.max_ulp)},
-                        {"ns_per_invocation", check.ns_per_invocation}});
+    backends.push_back(
+        {{"name", backend_name(check.target.backend)},
+         {"not_run", check.not_run.empty() ? Json(nullptr) : Json(check.not_run)},
+         {"rows", c.compared},
+         {"rows_differ", c.differ},
+         {"denormal_only", c.denormal_only},
+         {"max_ulp", ulp_json(c.max_ulp)},
+         {"ns_per_invocation", check.ns_per_invocation > 0 ? Json(check.ns_per_invocation) : Json(nullptr)}});
   }
   return {{"shader", shader.path},
           {"verdict", verdict_text(shader)},

@@ -9,6 +9,7 @@
 #include "app/dialect.h"
 #include "app/machines.h"
 #include "app/mismatch.h"
+#include "app/option_rules.h"
 #include "app/output.h"
 #include "app/provenance.h"
 #include "app/subject.h"
@@ -33,7 +34,23 @@ struct CompareVerb {
   double time_limit_seconds = DrawOptions().time_limit_seconds;
 
   int run() const;
+  // Of all pictures that may be written, whichever of them the scene can be drawn with.
+  std::vector<std::string> picture_names() const;
 };
+
+// a: the reference, as the table has it.
+std::string difference_name(const std::string& shader, const std::string& a, const std::string& b) {
+  return shader + "." + a + "-" + b + ".difference.png";
+}
+
+std::string frame_name(const std::string& shader, const std::string& backend) {
+  return shader + "." + backend + ".png";
+}
+
+// softpipe shades what the CPU covered, from the CPU's attributes, so it is the CPU that it is compared with.
+std::string reference_of(const std::string& backend, const std::string& first) {
+  return backend == "softpipe" ? "cpu" : first;
+}
 
 // One line of the table: shader `technique` on b, held to the reference a.
 struct Row {
@@ -107,6 +124,7 @@ class CompareRun {
     write_pictures(shader, a, reference);
     for (std::size_t i = 1; i < verb_.backends.size(); ++i) {
       const std::string& b = verb_.backends[i];
+      remove_difference_picture(shader, reference_of(b, a), b);
       try {
         if (b == "softpipe")
           compare_on_softpipe(shader, a, reference);
@@ -118,7 +136,6 @@ class CompareRun {
     }
   }
 
-  // softpipe shades what the CPU covered, from the CPU's attributes, so it is the CPU that it is compared with.
   void compare_on_softpipe(const Shading& shader, const std::string& a, const Frame& reference) {
     if (machines_.uses_derivatives(shader.source)) {
       skipped_.emplace_back(shader.technique,
@@ -139,11 +156,29 @@ class CompareRun {
     row.hash_a = frame_hash(frame_a), row.hash_b = frame_hash(frame_b);
     write_pictures(shader, b, frame_b);
     if (!row.comparison.equal()) {
-      if (!verb_.folder.empty() && scope == CompareScope::all)
-        write_difference_picture(picture_path(shader, a + "-" + b + ".difference"), frame_a, frame_b);
+      if (!verb_.folder.empty())
+        write_difference_picture(output_.claimed(difference_name(picture_of(shader), a, b)), frame_a,
+                                 scope == CompareScope::all ? frame_b : with_colors_where_covered(frame_a, frame_b));
       explain(shader, row, frame_a, frame_b, scope);
     }
     rows_.push_back(std::move(row));
+  }
+
+  // What only shades, as a frame: all else is as in the frame that it was given.
+  static Frame with_colors_where_covered(Frame frame, const Frame& shaded) {
+    for (std::size_t i = 0; i < frame.coverage.size(); ++i)
+      if (frame.coverage[i])
+        std::copy_n(shaded.color.begin() + std::ptrdiff_t(i * 4), 4, frame.color.begin() + std::ptrdiff_t(i * 4));
+    return frame;
+  }
+
+  // An earlier run's would stay beside frames that are equal now.
+  void remove_difference_picture(const Shading& shader, const std::string& a, const std::string& b) const {
+    if (verb_.folder.empty()) return;
+    const std::string path = output_.claimed(difference_name(picture_of(shader), a, b));
+    std::error_code code;
+    std::filesystem::remove(path, code);
+    if (code) throw UserError(path + ": cannot be removed: " + code.message());
   }
 
   // Draws again with the attributes captured, so that the first layer can be told and the inputs named. The counts of
@@ -177,16 +212,16 @@ class CompareRun {
     rows_.push_back(std::move(row));
   }
 
-  std::string picture_path(const Shading& shader, const std::string& what) const {
+  // The shader's part of its pictures' names.
+  std::string picture_of(const Shading& shader) const {
     const bool by_light = verb_.shading.light == LightSource::all;
     const bool by_name = !verb_.shading.shader.empty() || by_light || !shader.map.empty();
-    const std::string& name = by_name ? shader.source.name : shader.technique;
-    return (std::filesystem::path(verb_.folder) / (name + "." + what + ".png")).string();
+    return by_name ? shader.source.name : shader.technique;
   }
 
   void write_pictures(const Shading& shader, const std::string& backend, const Frame& frame) {
     if (!verb_.folder.empty() && backend != "softpipe")
-      write_picture(picture_path(shader, backend), frame, verb_.picture);
+      write_picture(output_.claimed(frame_name(picture_of(shader), backend)), frame, verb_.picture);
   }
 
   // softpipe keeps denormals where the dialect flushes them: known, counted, no mismatch.
@@ -296,16 +331,40 @@ class CompareRun {
   std::vector<std::pair<std::string, std::string>> skipped_;
 };
 
+std::vector<std::string> CompareVerb::picture_names() const {
+  std::vector<std::string> shaders;
+  if (!shading.shader.empty()) {
+    shaders.push_back(load_fragment_shader(shading.shader).name);
+  } else {
+    for (const TechniqueInfo* technique : chosen_techniques(shading)) {
+      const std::string name(technique->name);
+      std::vector<std::string> mapped{name};
+      for (const SphereMapInfo& map : sphere_maps()) mapped.push_back(name + "_" + std::string(map.name));
+      for (const std::string& with_map : mapped)
+        for (const char* light : {"", "_vertex", "_volume"})
+          for (const char* packing : {"", "_packed"}) shaders.push_back(with_map + light + packing);
+    }
+  }
+  std::vector<std::string> names;
+  for (const std::string& shader : shaders)
+    for (const std::string& backend : backends) {
+      names.push_back(frame_name(shader, backend));
+      names.push_back(difference_name(shader, reference_of(backend, backends.front()), backend));
+    }
+  return names;
+}
+
 int CompareVerb::run() const {
   apply(common);
-  const Output output(common);
+  Output output(common);
   require_backends(backends);
   if (backends.size() < 2) throw UserError("--on: name at least two backends to compare, as cpu,egl");
   if (backends.front() == "softpipe") throw UserError("--on: softpipe shades what the CPU covered; name cpu first");
   if (cpu.number == Number::float64)
     throw UserError("--number float64: frames in double have other bits by design; twinshade render draws them");
-  if (!folder.empty()) require_writable_folder(folder);
+  if (!folder.empty()) output.claim(folder, picture_names());
   output.require_not_read(files_read(subject, shading));
+  if (!folder.empty()) require_writable_folder(folder);
   return CompareRun(*this, output).run();
 }
 
@@ -316,6 +375,8 @@ Verb add_compare(CLI::App& app) {
   const auto verb = std::make_shared<CompareVerb>();
   add_subject_options(*command, verb->subject);
   add_shading_options(*command, verb->shading, "all");
+  require_one_shader(*command);
+  require_second_environment(*command);
   command
       ->add_option("--on", verb->backends,
                    "backends of cpu, egl, osmesa, softpipe, gpu; the first is the reference (default: cpu,egl,osmesa)")

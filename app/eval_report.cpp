@@ -89,8 +89,8 @@ Json difference_json(const EvaluatedCase& c, const OutputDifference& d) {
     json["got_hex"] = d.discarded ? Json(nullptr) : Json(hex(d.got, scalar));
   }
   json["ulp"] = d.ulp == UINT64_MAX ? Json(nullptr) : Json(d.ulp);
-  json["abs"] = number_json(d.abs, Scalar::f32);
-  json["rel"] = number_json(d.rel, Scalar::f32);
+  json["abs"] = d.discarded ? Json(nullptr) : number_json(d.abs, Scalar::f32);
+  json["rel"] = d.discarded ? Json(nullptr) : number_json(d.rel, Scalar::f32);
   return json;
 }
 

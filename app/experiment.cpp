@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <filesystem>
+#include <algorithm>
 #include <memory>
 
 #include "app/machines.h"
@@ -23,16 +23,39 @@ struct ExperimentVerb {
   ExperimentOptions options;
   std::string name, folder;
   bool csv = false;
+  std::vector<const CLI::Option*> choosing;  // options that not every experiment takes
 
   int run();
+  void require_taken(const ExperimentInfo& experiment) const;
+  std::vector<std::string> files_written(const ExperimentInfo& experiment) const;
 };
+
+void ExperimentVerb::require_taken(const ExperimentInfo& experiment) const {
+  if (!options.probes.empty() && !experiment.takes_probes)
+    throw UserError("experiment " + name + " takes no probe, but '" + options.probes.front() + "' is given");
+  std::string taken;
+  for (const std::string_view option : experiment.options)
+    if (!option.empty()) taken += (taken.empty() ? "" : ", ") + std::string(option);
+  for (const CLI::Option* option : choosing)
+    if (option->count() > 0 && std::find(experiment.options.begin(), experiment.options.end(),
+                                         "--" + option->get_lnames().front()) == experiment.options.end())
+      throw UserError(fmt::format("experiment {} takes no --{}: leave it out; of such options it takes {}", name,
+                                  option->get_lnames().front(), taken));
+}
+
+std::vector<std::string> ExperimentVerb::files_written(const ExperimentInfo& experiment) const {
+  std::vector<std::string> files{name + ".csv"};
+  for (const std::string& picture : experiment.pictures(options))
+    for (std::string& file : picture_files(picture)) files.push_back(std::move(file));
+  return files;
+}
 
 int ExperimentVerb::run() {
   const ExperimentInfo& experiment = find_experiment(name);
-  if (!options.probes.empty() && !experiment.takes_probes)
-    throw UserError("experiment " + name + " takes no probe, but '" + options.probes.front() + "' is given");
+  require_taken(experiment);
   apply(common);
-  const Output output(common);
+  Output output(common);
+  if (!folder.empty()) output.claim(folder, files_written(experiment));
   output.require_not_read(files_among(options.probes, environment_names()));
   if (!folder.empty()) require_writable_folder(folder);
   options.seed = common.seed;
@@ -40,9 +63,12 @@ int ExperimentVerb::run() {
   if (!options.on.empty()) require_backends(options.on);
   if (options.driver_filters && options.on.empty())
     throw UserError("--driver-filters: name the machines that read with --on, as --on cpu,egl");
+  Provenance provenance(common);
   Machines machines(CpuOptions(), true);
   options.draw = [&](const std::string& machine, const Bundle& bundle, const ShaderSource& source) {
-    return machines.draw(machine, bundle, source, DrawOptions());
+    Frame frame = machines.draw(machine, bundle, source, DrawOptions());
+    provenance.add(machine, frame);
+    return frame;
   };
   options.progress = [&](const std::string& line) { output.progress(name + ": " + line); };
   const ExperimentResult result = experiment.run(options);
@@ -50,11 +76,13 @@ int ExperimentVerb::run() {
   output.text(csv ? result.rows.csv() : table_text(result.rows));
   for (const std::string& note : result.notes) output.note(note);
   if (!folder.empty()) {
-    write_file((std::filesystem::path(folder) / (name + ".csv")).string(), result.rows.csv());
+    write_file(output.claimed(name + ".csv"), result.rows.csv());
+    for (const Picture& picture : result.pictures)
+      for (const std::string& file : picture_files(picture.name)) output.claimed(file);  // ends what claimed too little
     write_pictures(folder, result.pictures, output);
   }
   output.json({{"experiment", name},
-               {"provenance", Provenance(common).json()},
+               {"provenance", provenance.json()},
                {"rows", json_rows(result.rows)},
                {"notes", result.notes}});
   return 0;
@@ -96,6 +124,9 @@ Verb add_experiment(CLI::App& app) {
   command->add_flag("--relative", verb->options.relative, "errors relative to the signal as well");
   command->add_flag("--clamp-radiance", verb->options.clamp_radiance,
                     "accept probes with NaN, infinite or negative radiance");
+  for (const char* option : {"--basis", "--map", "--map-width", "--order", "--on", "--driver-filters", "--samples",
+                             "--relative", "--clamp-radiance"})
+    verb->choosing.push_back(command->get_option(option));
   command->add_flag("--csv", verb->csv, "print comma-separated values instead of a table");
   command->add_option("-o", verb->folder, "write NAME.csv, NAME.svg, NAME.png and further pictures into this folder")
       ->type_name("DIR");

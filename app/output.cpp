@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <bit>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 
 #include "base/error.h"
 #include "cpu_shaders/shader_source.h"
@@ -60,6 +62,34 @@ std::vector<std::pair<std::string, std::string>> Output::files() const {
   return files;
 }
 
+void Output::claim(const std::string& folder, std::vector<std::string> names) {
+  folder_ = folder;
+  claimed_.insert(std::make_move_iterator(names.begin()), std::make_move_iterator(names.end()));
+  for (const std::string& name : claimed_) {
+    std::error_code missing;
+    const std::string path = claimed(name);
+    if (fs::is_symlink(fs::symlink_status(path, missing))) links_.push_back(path);
+  }
+  for (const auto& [option, file] : files())
+    if (claims(file)) throw UserError(option + ": -o " + folder + " writes it: name another file for one of them");
+}
+
+std::string Output::claimed(const std::string& name) const {
+  TWINSHADE_CHECK_EQ(claimed_.count(name), std::size_t{1});
+  return (fs::path(folder_) / name).string();
+}
+
+bool Output::claims(const std::string& file) const {
+  if (claimed_.empty()) return false;
+  std::error_code code;
+  if (fs::exists(file, code) && !fs::is_regular_file(file, code)) return false;
+  const fs::path resolved = fs::weakly_canonical(fs::absolute(file, code), code);
+  if (!code && claimed_.contains(resolved.filename().string()) &&
+      resolved.parent_path() == fs::weakly_canonical(fs::absolute(folder_, code), code))
+    return true;
+  return std::any_of(links_.begin(), links_.end(), [&](const std::string& link) { return same_file(file, link); });
+}
+
 void Output::require_not_read(const std::vector<std::string>& read, const std::string& written) const {
   auto all = files();
   if (!written.empty()) {
@@ -71,6 +101,9 @@ void Output::require_not_read(const std::vector<std::string>& read, const std::s
     for (const std::string& input : read)
       if (same_file(file, input))
         throw UserError(option + ": it would replace " + input + ", which is read: name another file");
+  for (const std::string& input : read)
+    if (claims(input))
+      throw UserError("-o " + folder_ + ": it would replace " + input + ", which is read: name another folder");
 }
 
 void Output::require_not_taken(const std::string& folder, const std::string& ending) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,7 +21,14 @@ class Output {
   // Refuses files that cannot be written, and one file for two results, before any work is done. junit_file: what
   // --junit says, of verbs that have it.
   explicit Output(const CommonOptions& options, const std::string& junit_file = {});
-  // Refuses to write over a file that the verb reads. `written`: what else it writes, beside --json and --junit.
+  // Says what files -o writes into `folder`, by name: all that it may write, before any work. Refuses --json and
+  // --junit there; require_not_read then keeps what is read from being replaced by them. The folder need not be there
+  // yet.
+  void claim(const std::string& folder, std::vector<std::string> names);
+  // Where one of those goes; a name that was not claimed is a broken invariant.
+  std::string claimed(const std::string& name) const;
+  // Refuses to write over a file that the verb reads. `written`: what else it writes, beside --json and --junit and
+  // what is claimed.
   void require_not_read(const std::vector<std::string>& read, const std::string& written = {}) const;
   // Refuses a file in `folder` with this ending: the next run would read it.
   void require_not_taken(const std::string& folder, const std::string& ending) const;
@@ -33,11 +41,15 @@ class Output {
 
  private:
   void clear_progress() const;
+  bool claims(const std::string& file) const;  // whether -o writes it
   // What is said of a file, and the file; none for stdout.
   std::vector<std::pair<std::string, std::string>> files() const;
 
   const CommonOptions& options_;
   const std::string junit_file_;
+  std::string folder_;              // -o; empty: none
+  std::set<std::string> claimed_;   // names of files in it
+  std::vector<std::string> links_;  // those that are links: what one leads to is replaced
   bool shows_progress_ = false;
   mutable bool progress_shown_ = false;
 };

@@ -41,7 +41,9 @@ void Provenance::add(const Subject& subject) {
   json_["size"] = {subject.bundle.width, subject.bundle.height};
 }
 
-void Provenance::add(const Shading& shading) { json_["shaders"][shading.label()] = source_hash(shading.source); }
+void Provenance::add(const Shading& shading) { add_shader(shading.label(), source_hash(shading.source)); }
+
+void Provenance::add_shader(const std::string& name, const std::string& hash) { json_["shaders"][name] = hash; }
 
 void Provenance::add(const std::string& backend, const std::vector<std::pair<std::string, std::string>>& said) {
   Json& entry = json_["backends"][backend];

@@ -17,6 +17,7 @@ class Provenance {
   explicit Provenance(const CommonOptions& options);
   void add(const Subject& subject);
   void add(const Shading& shading);
+  void add_shader(const std::string& name, const std::string& hash);
   // GL_RENDERER, instruction set ...: what the backend says about itself. The first frame of a backend counts.
   void add(const std::string& backend, const Frame& frame) { add(backend, frame.provenance); }
   void add(const std::string& backend, const std::vector<std::pair<std::string, std::string>>& said);

@@ -6,6 +6,7 @@
 
 #include "app/machines.h"
 #include "app/memory_needed.h"
+#include "app/option_rules.h"
 #include "app/output.h"
 #include "app/provenance.h"
 #include "app/subject.h"
@@ -27,6 +28,7 @@ struct RenderVerb {
   std::string backend = "cpu", file;
   AttributeMode attributes = AttributeMode::exact;
   bool host_fma = true;
+  std::vector<const CLI::Option*> of_reference;  // options of technique reference alone
 
   int run() const {
     apply(common);
@@ -37,6 +39,8 @@ struct RenderVerb {
           "softpipe draws no picture of its own: it shades what the CPU covered (twinshade compare --on cpu,softpipe)");
     if (wants_all(shading) || (shading.shader.empty() && shading.techniques.size() != 1))
       throw UserError("--technique: render draws one; name one technique");
+    if (shading.maps.size() != 1 || shading.maps.front() == "all")
+      throw UserError("--map: render draws one; name one map");
     if (shading.light == LightSource::all)
       throw UserError("--light all: render draws one; name lightmap, vertex or volume");
     if (!file.empty()) {
@@ -46,6 +50,9 @@ struct RenderVerb {
     output.require_not_read(files_read(subject, shading), file);
 
     const bool traced = shading.shader.empty() && shading.techniques.front() == kReferenceTechnique;
+    for (const CLI::Option* option : of_reference)
+      if (!traced && option->count() > 0)
+        throw UserError(option->get_name() + ": only technique reference has it; add --technique reference");
     if (traced && backend != "cpu") throw UserError("technique reference has no shader: the cpu alone draws it");
     Subject ready;
     if (!traced) ready = load_subject(subject, shading, common, output, file);
@@ -118,7 +125,11 @@ Verb add_render(CLI::App& app) {
   const auto verb = std::make_shared<RenderVerb>();
   add_subject_options(*command, verb->subject);
   add_shading_options(*command, verb->shading, "h4");
+  require_one_shader(*command);
+  require_second_environment(*command);
   add_reference_options(*command, verb->shading);
+  for (const char* name : {"--reference-rays", "--reference-order"})
+    verb->of_reference.push_back(command->get_option(name));
   command->add_option("--on", verb->backend, "cpu, egl, osmesa or gpu (default: cpu)")->type_name("BACKEND");
   add_attribute_option(*command, verb->attributes);
   command->add_option("-o,--output", verb->file, "picture to write, by ending: .exr, .hdr or .png")->type_name("F.exr");

@@ -66,6 +66,10 @@ std::string table_text(const Rows& rows) {
   return table.text();
 }
 
+std::vector<std::string> picture_files(const std::string& name) {
+  return {name + ".svg", name + ".png", name + ".exr"};
+}
+
 void write_pictures(const std::string& folder, const std::vector<Picture>& pictures, const Output& output) {
   for (const Picture& picture : pictures) {
     const std::string path = (std::filesystem::path(folder) / picture.name).string();

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/removed_on_signal.h"
 
 namespace twinshade {
 namespace {
@@ -147,6 +148,7 @@ void write_file_with(const std::string& path, const std::function<void(const std
                                            fs::path(path).extension().string()))
                                     .string();
   std::error_code code;
+  const RemovedOnSignal removed(temporary);
   try {
     write(temporary);
     if (to.in_place) {

@@ -22,7 +22,7 @@ std::string read_file(const std::string& path, std::optional<std::uint64_t> most
 void write_file(const std::string& path, std::string_view content);
 
 // For libraries that insist on writing a file themselves: `write` gets a temporary path with the same ending; it is
-// renamed to `path` when `write` returns, removed when it throws.
+// renamed to `path` when `write` returns, removed when it throws and when a signal ends the process (RemovedOnSignal).
 void write_file_with(const std::string& path, const std::function<void(const std::string& temporary)>& write);
 
 // UserError if write_file could not write there: found out before minutes of work, not after.

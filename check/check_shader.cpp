@@ -82,6 +82,7 @@ class Check {
     } else {
       result_.findings = lint(source_);
     }
+    result_.hash = source_hash(source_);
   }
 
   void generate() {
@@ -101,7 +102,7 @@ class Check {
 
   void compare() {
     const EvaluatedRows reference = evaluator_.run(source_, table_, options_.on[0]);
-    result_.backends.push_back({options_.on[0], "", {}, 0});
+    result_.backends.push_back({options_.on[0], "", {}, 0, reference.provenance});
     std::size_t compared = 0, refused = 0;
     bool bits_differ = false;
     std::vector<RowComparison> beyond(1);  // what of each comparison is beyond the distance that is called the same
@@ -109,6 +110,7 @@ class Check {
       BackendCheck check{options_.on[i], "", {}, 0};
       try {
         const Both both = run(source_, table_, options_.on[i], &reference);
+        check.provenance = both.b.provenance;
         check.comparison = compare_rows(both.a, both.b, both.leave_out);
         beyond.push_back(compare_rows(both.a, both.b, both.leave_out, options_.ulp));
         if (check.comparison.compared == 0) throw BackendError(every_row_left_out(options_.on[i]));

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "check/compare_rows.h"
@@ -30,6 +31,7 @@ struct BackendCheck {
   std::string not_run;           // empty, or why there is nothing to compare: its driver refuses the shader, say
   RowComparison comparison;      // with the first backend
   double ns_per_invocation = 0;  // 0: not measured
+  std::vector<std::pair<std::string, std::string>> provenance = {};  // what the backend says about itself
 };
 
 // An input on which two machines differ.
@@ -55,6 +57,7 @@ struct CheckedShader {
   Verdict verdict = Verdict::refused;
   std::string message;             // refused, not_run: why
   std::vector<std::string> files;  // that it is made of
+  std::string hash;                // of the source that is run; empty: it could not be read
   std::vector<LintFinding>
       findings;  // where it leaves the exact dialect; with make_exact: what could not be made exact
   std::vector<BackendCheck> backends;

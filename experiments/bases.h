@@ -13,7 +13,8 @@ namespace twinshade {
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 // The bases that options.bases names (every basis of the registry where it names none) and `why_not` gives no reason
-// against (empty: measured). A basis that was asked for by name and cannot be measured is a UserError with the reason.
+// against (empty: measured). A basis that was asked for by name and cannot be measured is a UserError with the reason,
+// a name that does not exist one with the nearest names of those that can.
 std::vector<const TechniqueInfo*> chosen_bases(const ExperimentOptions& options,
                                                const std::function<std::string(const TechniqueInfo&)>& why_not);
 

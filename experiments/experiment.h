@@ -2,6 +2,7 @@
 // pictures.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -84,6 +85,10 @@ struct ExperimentInfo {
   std::string_view name;
   std::string_view description;
   bool takes_probes;
+  // Of the options on the command line that choose what is measured, those that mean something to it, as "--basis".
+  std::array<std::string_view, 6> options;
+  // Names of all pictures that run() may give: what they would replace can be told before it runs.
+  std::vector<std::string> (*pictures)(const ExperimentOptions&);
   // Independent of the number of threads: the same rows, bit by bit. UserError for names that do not exist, with the
   // nearest ones.
   ExperimentResult (*run)(const ExperimentOptions&);

@@ -27,16 +27,27 @@ std::vector<double> over_pi(std::vector<double> values) {
   return values;
 }
 
+std::vector<std::string> chosen_probes(const ExperimentOptions& options) {
+  return options.probes.empty() ? environment_names() : options.probes;
+}
+
 }  // namespace
 
-std::vector<Probe> load_probes(const ExperimentOptions& options) {
-  std::vector<Probe> probes;
-  for (const std::string& path : options.probes.empty() ? environment_names() : options.probes) {
-    std::string name = std::filesystem::path(path).stem().string();
-    const auto same = std::count_if(probes.begin(), probes.end(), [&](const Probe& p) { return p.name == name; });
-    if (same > 0) name = fmt::format("{}-{}", name, same + 1);
-    probes.push_back({name, load_environment(path, options.clamp_radiance)});
+std::vector<std::string> probe_names(const ExperimentOptions& options) {
+  std::vector<std::string> names;
+  for (const std::string& path : chosen_probes(options)) {
+    const std::string name = std::filesystem::path(path).stem().string();
+    const auto same = std::count(names.begin(), names.end(), name);
+    names.push_back(same > 0 ? fmt::format("{}-{}", name, same + 1) : name);
   }
+  return names;
+}
+
+std::vector<Probe> load_probes(const ExperimentOptions& options) {
+  const std::vector<std::string> names = probe_names(options), paths = chosen_probes(options);
+  std::vector<Probe> probes;
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    probes.push_back({names[i], load_environment(paths[i], options.clamp_radiance)});
   return probes;
 }
 

@@ -27,9 +27,11 @@ struct ProbeLight {
 
 // The probes asked for, or the built-in environments; UserError as load_environment.
 struct Probe {
-  std::string name;  // of its file, without folder and ending
+  std::string name;  // of its file, without folder and ending; with a number behind it where another has that name
   Environment environment;
 };
+// Their names alone: no file is read.
+std::vector<std::string> probe_names(const ExperimentOptions& options);
 std::vector<Probe> load_probes(const ExperimentOptions& options);
 
 // 240 cells of cell_points^2 normals, fewer where the environment has so many pixels that the product would take

@@ -18,6 +18,9 @@
 #include <filesystem>
 #include <thread>
 
+#include "base/cache.h"
+#include "base/error.h"
+
 extern char** environ;
 
 namespace twinshade {
@@ -38,13 +41,23 @@ constexpr const char* kWatch =
     "PATH=/usr/bin:/bin; trap '' HUP INT TERM; read -r _; kill -TERM 0; sleep 0.2; rm -rf -- \"$1\"; "
     "[ -z \"$2\" ] || rm -rf -- \"$2\"[.-]*; kill -KILL 0";
 
-// A folder of its own, empty where there is no place for one: compilers find another, or say what they miss.
+// A folder of its own: in TMPDIR, or in the cache where none can be made there, which not every compiler puts up with.
+// Empty where there is no place for one: what is wrong with the cache is said by whoever uses it.
 struct TemporaryFolder {
   std::string path;
   TemporaryFolder() {
     std::error_code code;
-    path = (fs::temp_directory_path(code) / "twinshade-compiler-XXXXXX").string();
-    if (code || !mkdtemp(path.data())) path.clear();
+    const fs::path folder = fs::temp_directory_path(code);
+    if (!code && make(folder / "twinshade-compiler-XXXXXX")) return;
+    try {
+      make(fs::path(cache_folder()) / ".twinshade-compiler-XXXXXX");
+    } catch (const UserError&) {
+    }
+  }
+  bool make(const fs::path& pattern) {
+    path = pattern.string();
+    if (!mkdtemp(path.data())) path.clear();
+    return !path.empty();
   }
   ~TemporaryFolder() {
     std::error_code ignored;

@@ -17,9 +17,10 @@ struct ProgramResult {
   bool started = true;
 };
 // Runs words[0], a path, and waits for it. It and what it starts may take 300 s of processor time and 4 GiB of
-// addresses each, and have a folder for temporary files of their own. When it has ended, when `time` has passed, and
-// when this process ends in whatever way, what is left of them is killed and the folder removed; in the last case what
-// is named `made`, or begins like it up to its ending, is removed, too: files half made, and folders.
+// addresses each, and have a folder for temporary files of their own: in TMPDIR, or in the cache. When it has ended,
+// when `time` has passed, and when this process ends in whatever way, what is left of them is killed and the folder
+// removed; in the last case what is named `made`, or begins like it up to its ending, is removed, too: files half made,
+// and folders.
 ProgramResult run_program(const std::vector<std::string>& words, std::chrono::milliseconds time,
                           const std::string& made = {});
 

@@ -122,6 +122,30 @@ TEST_CASE("malformed options are refused") {
   check_refused({"compare", "quad", "--on", "softpipe,cpu"}, {"cpu first"});
 }
 
+TEST_CASE("options that would mean nothing are refused, not ignored") {
+  check_refused({"render", "quad", "--technique", "unc3", "--map", "cube,dual_paraboloid"}, {"--map", "name one map"});
+  check_refused({"render", "quad", "--technique", "unc3", "--map", "all"}, {"--map", "name one map"});
+  for (const char* verb : {"render", "compare"})
+    check_refused({verb, "quad", "--shader", "a.frag", "--technique", "h4"}, {"--shader", "--technique"});
+  for (const char* verb : {"render", "compare", "bake"})
+    check_refused({verb, "quad", "--blend", "0.3", "-o", "none.exr"}, {"--blend", "--env2"});
+  check_refused({"render", "quad", "--technique", "h4", "--reference-rays", "3"}, {"--reference-rays", "reference"});
+  check_refused({"render", "quad", "--reference-order", "3"}, {"--reference-order", "reference"});
+  const std::vector<std::pair<std::string, std::vector<std::string>>> ignored{
+      {"frobenius", {"--relative"}},       {"frobenius", {"--samples", "5"}},
+      {"frobenius", {"--map", "cube"}},    {"frobenius", {"--order", "3"}},
+      {"frobenius", {"--on", "cpu"}},      {"frobenius", {"--driver-filters"}},
+      {"basis-imse", {"--relative"}},      {"figures", {"--relative"}},
+      {"probe-rmse", {"--samples", "10"}}, {"sphere-map-mse", {"--basis", "sh2"}},
+      {"wobble", {"--on", "cpu"}},         {"basis-imse", {"--clamp-radiance"}},
+      {"wobble", {"--map-width", "8"}},    {"visibility-figures", {"--basis", "unc3"}}};
+  for (const auto& [experiment, options] : ignored) {
+    std::vector<std::string> arguments{"experiment", experiment};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    check_refused(arguments, {experiment, options.front(), "leave it out"});
+  }
+}
+
 TEST_CASE("an instruction set that is unknown, or that TWINSHADE_ISA rules out, is refused") {
   ::setenv("TWINSHADE_ISA", "sse9", 1);
   check_refused(small_quad({"render"}, {}), {"TWINSHADE_ISA=sse9", "baseline, avx2, avx512"});

@@ -97,6 +97,21 @@ TEST_CASE("a difference that comes from constant folding is named as such") {
   CHECK(example["first_line"]["line"] == 4);
 }
 
+TEST_CASE("JSON says what ran and which shader: instruction set, driver, hash; what was not measured is null") {
+  if (!why_missing("egl").empty()) return;
+  const Folder folder;
+  const std::string shader = folder.file("sum.frag", "in float x; out float y;\nvoid main() { y = x + x; }\n");
+  const Run run = run_twinshade(arguments(shader));
+  REQUIRE_MESSAGE(run.code == 0, run.err);
+  const nlohmann::json json = run.json(), provenance = json["provenance"];
+  CAPTURE(provenance.dump());
+  CHECK(provenance["backends"]["cpu"].contains("isa"));
+  CHECK(provenance["backends"]["egl"].contains("GL_RENDERER"));
+  CHECK(provenance["backends"]["egl"].contains("GL_VERSION"));
+  CHECK(provenance["shaders"][shader].get<std::string>().size() == 64);
+  for (const auto& backend : json["shaders"][0]["backends"]) CHECK(backend["ns_per_invocation"].is_null());
+}
+
 TEST_CASE("NaN and infinities are inputs where they are asked for, and NaN is one class") {
   if (!why_missing("egl").empty()) return;
   const Folder folder;

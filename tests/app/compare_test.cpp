@@ -133,6 +133,36 @@ TEST_CASE("pictures of frames, and of differences where there are any, are writt
   CHECK_FALSE(std::filesystem::exists(folder / ("new/pictures/h4.cpu-" + opengl.front() + ".difference.png")));
 }
 
+TEST_CASE("no picture of a difference of an earlier run stays beside frames that are equal") {
+  const std::vector<std::string> opengl = opengl_backends();
+  if (opengl.empty()) return;
+  const Folder folder;
+  folder.file("h4.cpu-" + opengl.front() + ".difference.png", "of an earlier run");
+  const std::string other = folder.file("h6.cpu-" + opengl.front() + ".difference.png", "of another technique");
+  const Run run = run_twinshade(
+      small_quad({"compare"}, {"--technique", "h4", "--on", "cpu," + opengl.front(), "-o", folder / "."}));
+  INFO(run.err);
+  CHECK(run.code == 0);
+  CHECK(folder.names() == std::vector<std::string>{"h4.cpu.png", "h4." + opengl.front() + ".png",
+                                                   "h6.cpu-" + opengl.front() + ".difference.png"});
+}
+
+TEST_CASE("softpipe's differences are drawn, too") {
+  if (const std::string reason = why_missing("softpipe"); !reason.empty()) {
+    MESSAGE("not tested on softpipe: " << reason);
+    return;
+  }
+  const Folder folder;
+  const std::string shader =
+      folder.file("sine.frag", "in vec2 v_uv;\nout vec4 color;\nvoid main() { color = vec4(sin(v_uv.x * 9.0)); }\n");
+  const Run run =
+      run_twinshade(small_quad({"compare"}, {"--shader", shader, "--on", "cpu,softpipe", "-o", folder / "new"}));
+  INFO(run.err);
+  CHECK(run.code == 1);
+  CHECK(std::filesystem::exists(folder / "new/sine.cpu-softpipe.difference.png"));
+  CHECK_FALSE(std::filesystem::exists(folder / "new/sine.softpipe.png"));
+}
+
 TEST_CASE("native attributes are reported and are no failure") {
   const std::vector<std::string> opengl = opengl_backends();
   if (opengl.empty()) return;

@@ -69,6 +69,21 @@ TEST_CASE("eval shows a failure with its inputs, in decimal and as hex floats") 
   CHECK(xml.find("name=\"a on cpu\"") != std::string::npos);
 }
 
+TEST_CASE("a value of a row that was discarded is at no distance from what is expected") {
+  const Folder folder;
+  const std::string shader =
+      folder.file("gone.frag", "in float x;\nout float r;\nvoid main() {\n  if (x > 0.0) discard;\n  r = x;\n}\n");
+  const std::string json = folder.file("gone.json", R"({"values": {
+      "inputs": [{"name": "x", "type": "float", "values": [1]}],
+      "outputs": [{"name": "r", "type": "float", "values": [1]}]}})");
+  const Run run = run_twinshade({"eval", shader, "--cases", json, "--on", "cpu", "--json", "-"});
+  CHECK(run.code == 1);
+  const auto result = run.json()["cases"][0];
+  const auto worst = result["backends"][0]["worst"];
+  REQUIRE(worst.is_object());
+  for (const char* distance : {"got", "ulp", "abs", "rel"}) CHECK(worst[distance].is_null());
+}
+
 TEST_CASE("a shader that does not compile ends the run, and services are told where") {
   const Folder folder;
   const std::string junit = folder / "out.xml", json = folder.file("a.json", cases("[[1, 2], [4, 6]]"));

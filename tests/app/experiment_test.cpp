@@ -19,6 +19,8 @@ TEST_CASE("sphere maps are read alike on the CPU and by OpenGL, to the bit") {
   REQUIRE_MESSAGE(run.code == 0, run.err);
   const auto rows = run.json()["rows"];
   CHECK(rows.size() >= 6);
+  CHECK(run.json()["provenance"]["backends"]["cpu"].contains("isa"));
+  if (why_missing("egl").empty()) CHECK(run.json()["provenance"]["backends"]["egl"].contains("GL_VERSION"));
   for (const auto& row : rows) CHECK_MESSAGE(row["values_differ"] == 0, row.dump());
 }
 
@@ -46,6 +48,24 @@ TEST_CASE("drivers filter flat maps as written out but for rounding, and cubes w
       CHECK(row["max_difference"] > 1e-3);
   }
   CHECK(rows == 3 * (3 + 3 + 2));  // storages; filters of cube, cube_dx9, dual_paraboloid
+}
+
+TEST_CASE("every file of a folder of results is one that was to be expected") {
+  const Folder folder;
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"frobenius", "--basis", "sh2"},
+        {"wobble", "--basis", "sh2", "--samples", "2"},
+        {"figures", "--basis", "h4,sh2"},
+        {"basis-imse", "--basis", "h4", "--samples", "10"},
+        {"sphere-map-mse", "--map", "cube", "--map-width", "4", "--samples", "100"},
+        {"probe-rmse", "constant", "--basis", "sh2"}}) {
+    std::vector<std::string> arguments{"experiment"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    arguments.insert(arguments.end(), {"-o", folder / "."});
+    const Run run = run_twinshade(arguments);
+    CHECK_MESSAGE(run.code == 0, run.err);
+    CHECK(std::filesystem::exists(folder / (options.front() + ".csv")));
+  }
 }
 
 }  // namespace twinshade

@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -227,6 +228,43 @@ TEST_CASE("nothing is written over what a model names") {
   std::vector<std::string> elsewhere = render;
   elsewhere.insert(elsewhere.end(), {"-o", folder / "new.png"});
   CHECK(run_twinshade(elsewhere).code == 0);
+}
+
+TEST_CASE("nothing in a folder of results replaces what is read, nor another result") {
+  const Folder folder;
+  const std::string here = folder / ".", image = folder / "h4.cpu.png";
+  REQUIRE(run_twinshade({"render", "quad", "--size", "16x16", "-o", image}).code == 0);
+  const std::string picture = read_file(image);
+  folder.file("m.mtl", "newmtl a\nmap_Kd h4.cpu.png\n");
+  const std::string model = folder.file(
+      "m.obj", "mtllib m.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+  const std::string sky = folder.file("sky.hdr", "a sky");
+  const std::string irradiance = folder.file("probe-rmse-sky-irradiance.exr", "irradiance");
+  fs::create_symlink(sky, folder / "h6.cpu.png");
+  const std::vector<std::string> compare{"compare", model, "--technique", "h4,h6", "--on", "cpu,egl", "-o", here};
+  const std::vector<std::string> frobenius{"experiment", "frobenius", "--basis", "sh2", "-o", here};
+  for (const auto& [verb, options] :
+       {std::pair(compare, std::vector<std::string>{}), std::pair(compare, std::vector<std::string>{"--env", sky}),
+        std::pair(compare, std::vector<std::string>{"--json", folder / "h4.cpu-egl.difference.png"}),
+        std::pair(compare, std::vector<std::string>{"--json", sky}),
+        std::pair(frobenius, std::vector<std::string>{"--json", folder / "frobenius.csv"}),
+        std::pair(frobenius, std::vector<std::string>{"--json", folder / "./frobenius.svg"}),
+        std::pair(std::vector<std::string>{"experiment", "probe-rmse", sky, irradiance, "--basis", "sh2"},
+                  std::vector<std::string>{"-o", here})}) {
+    std::vector<std::string> arguments = verb;
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Run run = run_twinshade(arguments);
+    CAPTURE(run.err);
+    CHECK(run.code == 2);
+    CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
+    CHECK(run.err.find("-o " + here) != std::string::npos);
+    CHECK(run.err.find(": name another f") != std::string::npos);
+  }
+  CHECK(read_file(image) == picture);
+  CHECK(read_file(sky) == "a sky");
+  CHECK(read_file(irradiance) == "irradiance");
+  CHECK(run_twinshade({"experiment", "frobenius", "--basis", "sh2", "-o", here, "--json", folder / "a.json"}).code ==
+        0);
 }
 
 TEST_CASE("JUnit XML goes to stdout if asked, alone, but not beside JSON") {

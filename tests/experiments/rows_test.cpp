@@ -1,10 +1,12 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "base/error.h"
 #include "experiments/experiment.h"
+#include "lighting/registry.h"
 
 using namespace twinshade;
 
@@ -20,6 +22,25 @@ TEST_CASE("CSV quotes what needs it, keeps every digit and leaves undefined cell
 
 TEST_CASE("an experiment that does not exist is answered with the nearest name") {
   CHECK_THROWS_WITH_AS(find_experiment("frobenus"), doctest::Contains("frobenius"), UserError);
+}
+
+TEST_CASE("only bases that an experiment can measure are named where one does not exist") {
+  ExperimentOptions options;
+  options.bases = {"foo"};
+  for (const ExperimentInfo& experiment : experiments()) {
+    if (std::find(experiment.options.begin(), experiment.options.end(), "--basis") == experiment.options.end())
+      continue;
+    CAPTURE(experiment.name);
+    std::string said;
+    try {
+      experiment.run(options);
+    } catch (const UserError& error) {
+      said = error.what();
+    }
+    CHECK(said.starts_with("unknown basis 'foo'; known: "));
+    for (const TechniqueInfo& technique : techniques())
+      if (!technique.is_basis) CHECK((said + ",").find(" " + std::string(technique.name) + ",") == std::string::npos);
+  }
 }
 
 TEST_CASE("a basis that does not exist, or is none, is refused by every experiment") {

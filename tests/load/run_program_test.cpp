@@ -69,6 +69,17 @@ TEST_CASE("a program has a folder for temporary files, which goes with what is i
   CHECK(fs::is_empty(cache.folder));
 }
 
+TEST_CASE("where TMPDIR takes no folder, the one for temporary files is in the cache") {
+  const TestCache cache;
+  for (const std::string unusable : {"/proc", "/no/such/folder", "/dev/null"}) {
+    CAPTURE(unusable);
+    const TestVariable folder("TMPDIR", unusable.c_str());
+    const std::string path = run_script("echo x > $TMPDIR/left && printf $TMPDIR").output;
+    CHECK(path.starts_with(cache.folder + "/"));
+    CHECK(fs::is_empty(cache.folder));
+  }
+}
+
 TEST_CASE("a program that waits is stopped with all that it started, when its time has passed") {
   ProgramResult result;
   CHECK(seconds_of([&] { result = run_script("sleep 100 & echo $!; sleep 100; exit 0", milliseconds(300)); }) < 10);

@@ -19,6 +19,7 @@
 
 #include "base/error.h"
 #include "base/sanitizers.h"
+#include "scenes/scene_limits.h"
 
 namespace twinshade {
 namespace {
@@ -190,8 +191,12 @@ RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<Impl>()) {
   }
   if (self.triangles.empty()) return;
   self.diagonal = std::sqrt(glm::dot(high - low, high - low));
-  const glm::dvec3 reach = glm::max(glm::abs(low), glm::abs(high));
-  self.padding = float(std::max({reach.x, reach.y, reach.z, self.diagonal}) * 0x1p-18);
+  const glm::dvec3 corner = glm::max(glm::abs(low), glm::abs(high));
+  const double reach = std::max({corner.x, corner.y, corner.z});
+  if (reach > kLargestCoordinate)
+    throw UserError((scene.name.empty() ? "the scene" : scene.name) +
+                    ": its triangles reach farther than 1e15 from the origin; scale it down");
+  self.padding = float(std::max(reach, self.diagonal) * 0x1p-18);
 
   // Embree's tree over them
   self.device = new_device();

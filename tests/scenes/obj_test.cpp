@@ -112,3 +112,26 @@ TEST_CASE("what is missing from an OBJ is said or refused") {
   CHECK(user_error([&] { load_scene(folder.name("cube.obj"), 1000); }).find("--triangles") != std::string::npos);
   CHECK(user_error([&] { load_scene(folder.name("cube.fbx")); }).find(".gltf, .glb or .obj") != std::string::npos);
 }
+
+TEST_CASE("an OBJ too far out or too small to be drawn is refused by name, from 1e-14 to 1e14 it is framed") {
+  TemporaryFolder folder;
+  const auto triangle_of_side = [&](const std::string& side) {
+    return folder.write("side.obj", "v 0 0 0\nv " + side + " 0 0\nv 0 0 -" + side + "\nv 1e30 0 0\nf 1 2 3\n");
+  };
+  for (const char* side : {"1e-14", "1e-7", "1", "1e14"}) {
+    const Scene scene = load_scene(triangle_of_side(side));
+    const double distance = glm::length(scene.camera.target - scene.camera.eye), size = std::stod(side);
+    CAPTURE(side);
+    CHECK(distance > size);
+    CHECK(distance < 4 * size);
+  }
+  for (const char* side : {"2e15", "1e20", "1e25"}) {
+    const std::string message = user_error([&] { load_scene(triangle_of_side(side)); });
+    INFO(message);
+    CHECK(message.find("side.obj: mesh ") != std::string::npos);
+    CHECK(message.find("farther than 1e15") != std::string::npos);
+  }
+  for (const char* side : {"1e-16", "1e-20", "0"})
+    CHECK(user_error([&] { load_scene(triangle_of_side(side)); }).find("side.obj: all its triangles") !=
+          std::string::npos);
+}

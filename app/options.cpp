@@ -150,7 +150,8 @@ void add_subject_options(CLI::App& command, SubjectOptions& options) {
   add_parsed(command, "--size", "WxH", "size of the frame (default: 1280x800)",
              given("--size", [&](const std::string& text) { parse_size(text, options.width, options.height); }));
   add_parsed(command, "--camera", "EYE,TARGET,FOV",
-             "seven numbers; vertical field of view in degrees (default: the scene's)",
+             "seven numbers; vertical field of view in degrees; up is +Y, -Z for views straight up or down (default: "
+             "the scene's)",
              given("--camera", [&](const std::string& text) { options.camera = parse_camera(text); }));
   add_parsed(command, "--triangles", "N", "refine a built-in scene to at least so many triangles",
              given("--triangles", [&](const std::string& text) {

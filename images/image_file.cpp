@@ -80,6 +80,11 @@ std::string lower_case_ending(const std::string& path) {
   return ending;
 }
 
+std::string pixel_name(std::size_t index, std::uint32_t width) {
+  return "pixel (" + std::to_string(index % width) + ", " + std::to_string(index / width) +
+         ") counted from the upper left";
+}
+
 DecodedImage decode_image_file(const std::string& path) {
   check_whole(read_file(path), path);
   try {

@@ -35,6 +35,9 @@ struct ImageToWrite {
 // written; nothing half-written stays behind.
 void write_image_file(const std::string& path, const ImageToWrite& image);
 
+// Pixel `index` of an image, row by row from the upper left, for messages.
+std::string pixel_name(std::size_t index, std::uint32_t width);
+
 // ".png" of "a/B.PNG"; empty where there is none.
 std::string lower_case_ending(const std::string& path);
 

@@ -8,14 +8,6 @@
 #include "images/image_file.h"
 
 namespace twinshade {
-namespace {
-
-std::string pixel_name(std::size_t index, std::uint32_t width) {
-  return "pixel (" + std::to_string(index % width) + ", " + std::to_string(index / width) +
-         ") counted from the upper left";
-}
-
-}  // namespace
 
 bool is_environment_file(const std::string& path) {
   const std::string ending = lower_case_ending(path);

@@ -338,7 +338,7 @@ class Reader {
     if (!source.file.empty()) model_.files.push_back(source.file);
     const DecodedImage decoded =
         source.file.empty() ? decode_image_memory(source.bytes, source.name) : decode_image_file(source.file);
-    model_.images.push_back(is_normal ? normal_image(decoded, scale) : albedo_image(decoded));
+    model_.images.push_back(is_normal ? normal_image(decoded, scale) : albedo_image(decoded, source.name));
     return images_[key] = int(model_.images.size()) - 1;
   }
 

@@ -59,6 +59,7 @@ class Assembly {
     if (glm::length(bounds.high - bounds.low) < kSmallestExtent)
       throw UserError(path_ + ": all its triangles lie within 1e-15 of one point; scale the model up");
     drop_unused_materials();
+    check_colours();
     decide_lightmap();
     say(missing_normals_, missing_normals_ + ": no normals; made from the triangles");
     say(missing_uvs_,
@@ -202,6 +203,15 @@ class Assembly {
       material = std::uint32_t(number[material]);
     }
     scene_.materials = std::move(used);
+  }
+
+  void check_colours() const {
+    for (const Material& material : scene_.materials)
+      for (int c = 0; c < 3; ++c)
+        if (!(material.albedo[c] >= 0 && std::isfinite(material.albedo[c])))
+          throw UserError(path_ + ": material '" + material.name + "': its colour (" +
+                          std::to_string(material.albedo.x) + ", " + std::to_string(material.albedo.y) + ", " +
+                          std::to_string(material.albedo.z) + ") is negative or not finite");
   }
 
   void decide_lightmap() {

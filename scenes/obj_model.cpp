@@ -93,7 +93,7 @@ class Reader {
       model_.notes.push_back("bump map " + name + " is a height field, not a normal map: ignored");
       return images_[key] = -1;
     }
-    model_.images.push_back(is_normal ? normal_image(decoded, 1) : albedo_image(decoded));
+    model_.images.push_back(is_normal ? normal_image(decoded, 1) : albedo_image(decoded, path));
     return images_[key] = int(model_.images.size()) - 1;
   }
 

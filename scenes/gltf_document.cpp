@@ -132,8 +132,12 @@ void GltfDocument::check_version() const {
   if (version.substr(0, 2) != "2.") fail("glTF version '" + version + "' is not supported; only 2.x is");
 }
 
+// The JSON library quotes what it read last, which may be megabytes of a data URI; names in a file may be as long.
 void GltfDocument::fail(const std::string& what) const {
-  std::string line = path_ + ": " + what;
+  constexpr std::size_t kMost = 300;
+  std::string line = what.substr(0, what.find("; last read: "));
+  if (line.size() > kMost) line = line.substr(0, kMost) + " ...";
+  line = path_ + ": " + line;
   for (char& c : line)
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';
   throw UserError(line);

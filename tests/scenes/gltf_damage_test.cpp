@@ -1,0 +1,24 @@
+// glTF files that are wrong in ways that cost more than a refusal: floods of words, of memory, cameras of no direction.
+#include <doctest/doctest.h>
+
+#include "scenes/scene.h"
+#include "tests/scenes/model_writers.h"
+#include "tests/scenes/temporary_folder.h"
+
+using namespace twinshade;
+using nlohmann::json;
+
+TEST_CASE("a .gltf cut within a data URI is refused with the place, without the data") {
+  TemporaryFolder folder;
+  GltfWriter writer;
+  writer.mesh(writer.square());
+  const std::string text = writer.gltf("data:application/octet-stream;base64," + std::string(100000, 'A'));
+  const std::string message =
+      user_error([&] { load_scene(folder.write("cut.gltf", text.substr(0, text.size() - 50000))); });
+  CHECK(message.find("cut.gltf: truncated or damaged JSON") != std::string::npos);
+  CHECK(message.find("line 1, column") != std::string::npos);
+  CHECK(message.find("AAAA") == std::string::npos);
+  CHECK(message.size() < 400);
+  writer.root["extensionsRequired"] = {std::string(100000, 'x')};
+  CHECK(user_error([&] { load_scene(folder.write("long.glb", writer.glb())); }).size() < 500);
+}

@@ -1,6 +1,7 @@
 #include "images/image_file.h"
 
 #include <filesystem>
+#include <new>
 #include <stdexcept>
 
 #include "base/error.h"
@@ -9,6 +10,8 @@
 
 namespace twinshade {
 namespace {
+
+constexpr const char* kNoMemory = "there is not enough memory for it; make it smaller";
 
 [[noreturn]] void refuse(const std::string& name, std::string reason) {
   reason = reason.substr(0, reason.find('\n'));
@@ -86,11 +89,15 @@ std::string pixel_name(std::size_t index, std::uint32_t width) {
 }
 
 DecodedImage decode_image_file(const std::string& path) {
-  check_whole(read_file(path), path);
   try {
+    check_whole(read_file(path), path);
     return image_codec().read_file(path);
+  } catch (const UserError&) {
+    throw;
   } catch (const std::runtime_error& error) {
     refuse(path, error.what());
+  } catch (const std::bad_alloc&) {
+    refuse(path, kNoMemory);
   }
 }
 
@@ -101,6 +108,8 @@ DecodedImage decode_image_memory(std::string_view bytes, const std::string& name
     return image_codec().read_memory(bytes, is_png(bytes));
   } catch (const std::runtime_error& error) {
     refuse(name, error.what());
+  } catch (const std::bad_alloc&) {
+    refuse(name, kNoMemory);
   }
 }
 

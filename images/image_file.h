@@ -17,7 +17,7 @@ struct DecodedImage {
   std::vector<float> texels;   // row 0 is the upper one; integers divided by their largest value
 };
 
-// UserError naming the file: missing, truncated, damaged, of no known format, of no size.
+// UserError naming the file: missing, truncated, damaged, of no known format, of no size, larger than memory.
 DecodedImage decode_image_file(const std::string& path);
 // A PNG or JPEG file in memory; `name` for messages.
 DecodedImage decode_image_memory(std::string_view bytes, const std::string& name);

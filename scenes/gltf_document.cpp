@@ -37,6 +37,8 @@ constexpr std::array kSupported = {"KHR_texture_transform",
 
 // No accessor of a sound file has more elements; a damaged count must not ask for all memory.
 constexpr std::uint64_t kMostElements = 1u << 28;
+// All zeros but for a sparse part, of which a small file may claim any number.
+constexpr std::uint64_t kMostElementsWithoutView = 1u << 20;
 
 std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
   std::uint32_t value = 0;
@@ -292,6 +294,8 @@ GltfDocument::Layout GltfDocument::layout(std::size_t accessor) const {
     result.stride = std::size_t(unsigned_number(element("bufferViews", std::size_t(index)), "byteStride", size));
     result.bytes =
         fit(view(std::size_t(index)), unsigned_number(object, "byteOffset", 0), size, result.stride, result.count, "");
+  } else if (result.count > kMostElementsWithoutView) {
+    fail("damaged: " + name + " has " + std::to_string(result.count) + " elements, but no bufferView");
   }
   if (const auto sparse = object.find("sparse"); sparse != object.end()) {
     const std::uint64_t count = sparse->at("count").get<std::uint64_t>();

@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <new>
 #include <unordered_map>
 
 #include "base/error.h"
@@ -259,8 +260,12 @@ std::string model_file_ending(const std::string& path) {
 }
 
 Scene load_model_file(const std::string& path) {
-  Model model = model_file_ending(path) == ".obj" ? read_obj_model(path) : read_gltf_model(path);
-  return Assembly(path, std::move(model)).scene();
+  try {
+    Model model = model_file_ending(path) == ".obj" ? read_obj_model(path) : read_gltf_model(path);
+    return Assembly(path, std::move(model)).scene();
+  } catch (const std::bad_alloc&) {
+    throw UserError(path + ": there is not enough memory for this model and its pictures; make them smaller");
+  }
 }
 
 }  // namespace twinshade

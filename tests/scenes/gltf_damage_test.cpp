@@ -22,3 +22,16 @@ TEST_CASE("a .gltf cut within a data URI is refused with the place, without the 
   writer.root["extensionsRequired"] = {std::string(100000, 'x')};
   CHECK(user_error([&] { load_scene(folder.write("long.glb", writer.glb())); }).size() < 500);
 }
+
+TEST_CASE("a small file that claims millions of vertices without data is refused at once") {
+  TemporaryFolder folder;
+  GltfWriter writer;
+  json square = writer.square(false, false);
+  writer.root["accessors"].push_back({{"componentType", 5126}, {"count", 268435456}, {"type", "VEC3"}});
+  square["attributes"]["POSITION"] = writer.root["accessors"].size() - 1;
+  square.erase("indices");
+  writer.mesh(square);
+  const std::string message = user_error([&] { load_scene(folder.write("zeros.glb", writer.glb())); });
+  INFO(message);
+  CHECK(message.find("zeros.glb: damaged: accessor 2 has 268435456 elements, but no bufferView") != std::string::npos);
+}

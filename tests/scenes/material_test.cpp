@@ -1,8 +1,12 @@
 // What materials of model files may hold.
 #include <doctest/doctest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
+#include <fstream>
 #include <limits>
 
+#include "base/sanitizers.h"
 #include "scenes/scene.h"
 #include "tests/scenes/image_writers.h"
 #include "tests/scenes/model_writers.h"
@@ -11,6 +15,20 @@
 using namespace twinshade;
 
 namespace {
+
+// The process may take so many bytes more than it has.
+struct LessMemory {
+  rlimit old{};
+  explicit LessMemory(std::size_t more_bytes) {
+    std::size_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    REQUIRE(getrlimit(RLIMIT_AS, &old) == 0);
+    rlimit lower = old;
+    lower.rlim_cur = pages * std::size_t(sysconf(_SC_PAGESIZE)) + more_bytes;
+    REQUIRE(setrlimit(RLIMIT_AS, &lower) == 0);
+  }
+  ~LessMemory() { setrlimit(RLIMIT_AS, &old); }
+};
 
 // An OBJ triangle whose material has the given lines.
 std::string triangle_with(const TemporaryFolder& folder, const std::string& lines) {
@@ -55,4 +73,23 @@ TEST_CASE("a floating-point picture with a bad colour is refused, naming it and 
     INFO(message);
     CHECK(message.find("colour.exr: the colour at pixel (2, 1)") != std::string::npos);
   }
+}
+
+TEST_CASE("a model whose pictures do not fit into memory is refused by name") {
+  if (kShadowMemory) {
+    MESSAGE("not tested: sanitizers map more addresses than any limit allows");
+    return;
+  }
+  TemporaryFolder folder;
+  write_image(folder.name("large.png"), 4, 4, 1, std::vector<std::uint8_t>(16));
+  load_scene(triangle_with(folder, "map_Kd large.png\n"));  // whatever is loaded with the first picture
+  write_image(folder.name("large.png"), 4096, 4096, 1, std::vector<std::uint8_t>(4096 * 4096));
+  const std::string model = triangle_with(folder, "map_Kd large.png\n");
+  const auto refusal_with = [&](std::size_t more_bytes) {
+    const LessMemory less(more_bytes);
+    return user_error([&] { load_scene(model); });
+  };
+  CHECK(refusal_with(std::size_t(50) << 20).find("large.png: cannot be read as an image: there is not enough memory") !=
+        std::string::npos);
+  CHECK(refusal_with(std::size_t(200) << 20).find("m.obj: there is not enough memory") != std::string::npos);
 }

@@ -38,8 +38,7 @@ std::uint32_t crc32(std::string_view bytes) {
   return ~crc;
 }
 
-// libpng writes to stderr about damage; chunks that are all there with their checksums give it no reason to
-// (W3C, Portable network graphics, section 5).
+// The chunks are all there, with their checksums (W3C, Portable network graphics, section 5).
 bool png_is_whole(std::string_view bytes) {
   for (std::size_t at = 8; at + 12 <= bytes.size();) {
     const std::size_t length = big_endian(bytes, at);

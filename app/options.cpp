@@ -146,7 +146,7 @@ void add_subject_options(CLI::App& command, SubjectOptions& options) {
              given("--env-rotation",
                    [&](const std::string& text) { options.rotation_degrees = parse_real("--env-rotation", text); }));
   command.add_flag("--clamp-radiance", options.clamp_radiance,
-                   "accept environments with NaN, infinite or negative radiance");
+                   "accept environments with NaN, infinite, negative or too large (1e30) radiance");
   add_parsed(command, "--size", "WxH", "size of the frame (default: 1280x800)",
              given("--size", [&](const std::string& text) { parse_size(text, options.width, options.height); }));
   add_parsed(command, "--camera", "EYE,TARGET,FOV",

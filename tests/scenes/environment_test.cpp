@@ -180,7 +180,7 @@ TEST_CASE("an .exr file is read as it is, row 0 at the zenith") {
   CHECK(load_environment(folder.name("grey.exr")).radiance[5] == glm::vec3(2.5f));
 }
 
-TEST_CASE("radiance that is NaN, infinite or negative is refused by pixel, or clamped") {
+TEST_CASE("radiance that is NaN, infinite, negative or too large to be summed is refused by pixel, or clamped") {
   TemporaryFolder folder;
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   struct Case {
@@ -188,8 +188,8 @@ TEST_CASE("radiance that is NaN, infinite or negative is refused by pixel, or cl
     const char* word;
     float clamped;
   };
-  for (const Case& bad :
-       {Case{nan, "not a number", 0}, Case{inf, "infinite", 9}, Case{-inf, "negative", 0}, Case{-1, "negative", 0}}) {
+  for (const Case& bad : {Case{nan, "not a number", 0}, Case{inf, "infinite", 9}, Case{-inf, "negative", 0},
+                          Case{-1, "negative", 0}, Case{3e38f, "above 1e30", 9}}) {
     std::vector<float> values(8 * 4 * 3, 1.0f);
     values[0] = 9;
     values[3 * (2 * 8 + 5) + 1] = bad.value;

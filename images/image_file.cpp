@@ -1,5 +1,8 @@
 #include "images/image_file.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <new>
 #include <stdexcept>
@@ -74,6 +77,24 @@ void check_whole(std::string_view bytes, const std::string& name) {
     refuse(name, "the file is truncated or damaged");
 }
 
+// What a Radiance picture's values have been multiplied by: the product of its header's EXPOSURE lines (Ward, Radiance
+// file formats), which OpenImageIO does not divide by. 1 for other files. Only the header, up to an empty line, is
+// read.
+double radiance_exposure(std::string_view bytes, const std::string& name) {
+  double exposure = 1;
+  if (bytes.substr(0, 2) != "#?") return exposure;
+  while (!bytes.empty()) {
+    const std::size_t end = std::min(bytes.find('\n'), bytes.size());
+    const std::string line(bytes.substr(0, end));
+    if (line.empty() || line == "\r") break;
+    bytes.remove_prefix(std::min(end + 1, bytes.size()));
+    if (line.rfind("EXPOSURE=", 0) != 0) continue;
+    exposure *= std::strtod(line.c_str() + 9, nullptr);
+    if (!(exposure > 0 && std::isfinite(exposure))) refuse(name, "its header says " + line);
+  }
+  return exposure;
+}
+
 }  // namespace
 
 std::string lower_case_ending(const std::string& path) {
@@ -89,8 +110,16 @@ std::string pixel_name(std::size_t index, std::uint32_t width) {
 
 DecodedImage decode_image_file(const std::string& path) {
   try {
-    check_whole(read_file(path), path);
-    return image_codec().read_file(path);
+    double exposure = 1;
+    {
+      const std::string bytes = read_file(path);
+      check_whole(bytes, path);
+      exposure = radiance_exposure(bytes, path);
+    }
+    DecodedImage image = image_codec().read_file(path);
+    if (exposure != 1)
+      for (float& value : image.texels) value = float(double(value) / exposure);
+    return image;
   } catch (const UserError&) {
     throw;
   } catch (const std::runtime_error& error) {

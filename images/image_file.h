@@ -1,4 +1,4 @@
-// Image files as they are: no colour conversion, no flipping.
+// Image files as they are: no colour conversion, no flipping. Radiance pictures are divided by their EXPOSURE.
 #pragma once
 
 #include <cstddef>

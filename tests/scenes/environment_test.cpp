@@ -168,6 +168,23 @@ TEST_CASE("an .hdr file's mantissas are worth 2^(exponent - 136)") {
     }
 }
 
+TEST_CASE("an .hdr file's values are divided by the product of its exposures") {
+  TemporaryFolder folder;
+  const std::string plain = flat_rgbe(8, 2, std::vector<std::uint8_t>(64, 130));
+  const auto with = [&](const std::string& lines) {
+    std::string text = plain;
+    text.insert(text.find('\n') + 1, lines);
+    return folder.write("e.hdr", text);
+  };
+  const glm::vec3 value = load_environment(with("")).radiance[0];
+  CHECK(load_environment(with("EXPOSURE=8\nEXPOSURE= 0.25\n")).radiance[0] == value / 2.0f);
+  for (const char* bad : {"EXPOSURE=0\n", "EXPOSURE=-1\n", "EXPOSURE=x\n", "EXPOSURE=inf\n"}) {
+    const std::string message = user_error([&] { load_environment(with(bad)); });
+    INFO(message);
+    CHECK(message.find("e.hdr: cannot be read as an image: its header says EXPOSURE=") != std::string::npos);
+  }
+}
+
 TEST_CASE("an .exr file is read as it is, row 0 at the zenith") {
   TemporaryFolder folder;
   std::vector<float> values;

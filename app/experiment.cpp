@@ -95,7 +95,7 @@ Verb add_experiment(CLI::App& app) {
       ->type_name("N");
   command->add_flag("--relative", verb->options.relative, "errors relative to the signal as well");
   command->add_flag("--clamp-radiance", verb->options.clamp_radiance,
-                    "accept probes with NaN, infinite or negative radiance");
+                    "accept probes with NaN, infinite, negative or too large (1e30) radiance");
   command->add_flag("--csv", verb->csv, "print comma-separated values instead of a table");
   command->add_option("-o", verb->folder, "write NAME.csv, NAME.svg, NAME.png and further pictures into this folder")
       ->type_name("DIR");

@@ -103,6 +103,8 @@ DecodedImage read_file(const std::string& path) {
   const StderrOfLibraries quiet;
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);
+  if (path.find('?') != std::string::npos)
+    refuse("the image library takes what follows a '?' in a name for options; rename it");
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path, &config);
   if (!input) refuse(OIIO::geterror());
   return read_all(*input);

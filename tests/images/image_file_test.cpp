@@ -140,3 +140,11 @@ TEST_CASE("PNGs whose chunks are whole but damaged within are refused, and libpn
     }
   }
 }
+
+TEST_CASE("a picture with a question mark in its name is refused with the reason") {
+  TemporaryFolder folder;
+  write_image(folder.name("a.png"), 4, 4, 1, std::vector<std::uint8_t>(16));
+  const std::string name = folder.write("a?b=1.png", read_file(folder.name("a.png")));
+  CHECK(user_error([&] { decode_image_file(name); }).find("a?b=1.png: cannot be read as an image: the image library") !=
+        std::string::npos);
+}

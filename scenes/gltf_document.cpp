@@ -205,7 +205,11 @@ std::string GltfDocument::resource(const std::string& uri, const std::string& wh
   }
   if (uri.find("://") != std::string::npos)
     fail(what + " is on the net (" + uri + "); only files beside the model are read");
-  *file = (std::filesystem::path(path_).parent_path() / percent_decoded(uri)).string();
+  const std::string name = percent_decoded(uri);
+  for (char c : name)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      fail("damaged: the URI of " + what + " has a control character in it (" + uri + ")");
+  *file = (std::filesystem::path(path_).parent_path() / name).string();
   return "";
 }
 

@@ -124,7 +124,7 @@ class Reader {
   // Names may have blanks in them: a file of the whole name is the one that is meant.
   std::vector<std::string> library_names(const std::string& all) const {
     std::error_code code;
-    if (fs::exists(texture_path(path_, all), code)) return {all};
+    if (!all.empty() && fs::exists(texture_path(path_, all), code)) return {all};
     std::istringstream words(all);
     std::vector<std::string> names;
     for (std::string name; words >> name;) names.push_back(name);

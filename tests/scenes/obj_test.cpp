@@ -169,9 +169,10 @@ TEST_CASE("material libraries: several on a line, names with blanks, indented, m
     }
     CHECK(file_names(scene) == std::set<std::string>{"m.obj", "a.mtl", "b.mtl", "c d.mtl"});
   }
-  const Scene missing = model("  mtllib e.mtl\nmtllib .\n");
+  const Scene missing = model("  mtllib e.mtl\nmtllib .\nmtllib\n");
   CHECK(has_note(missing, "material library e.mtl is missing"));
   CHECK(has_note(missing, "material library . is a folder"));
+  CHECK(!has_note(missing, "material library  "));
   CHECK(missing.triangle_count() == 3);
   for (const Material& material : missing.materials) CHECK(material.albedo != glm::vec3(0, 0, 0.5f));
 }

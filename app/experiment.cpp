@@ -123,7 +123,7 @@ Verb add_experiment(CLI::App& app) {
       ->type_name("N");
   command->add_flag("--relative", verb->options.relative, "errors relative to the signal as well");
   command->add_flag("--clamp-radiance", verb->options.clamp_radiance,
-                    "accept probes with NaN, infinite or negative radiance");
+                    "accept probes with NaN, infinite, negative or too large (1e30) radiance");
   for (const char* option : {"--basis", "--map", "--map-width", "--order", "--on", "--driver-filters", "--samples",
                              "--relative", "--clamp-radiance"})
     verb->choosing.push_back(command->get_option(option));

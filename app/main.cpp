@@ -45,7 +45,7 @@ int run_verb(const Verb& verb) {
     return verb.run();
   } catch (const std::bad_alloc&) {
     if (!verb.command->get_option_no_throw("--size")) throw;
-    return fail("out of memory; try a smaller --size or --lightmap");
+    return fail("out of memory; try a smaller --size, --lightmap or --volume, or fewer --triangles");
   }
 }
 

@@ -146,11 +146,12 @@ void add_subject_options(CLI::App& command, SubjectOptions& options) {
              given("--env-rotation",
                    [&](const std::string& text) { options.rotation_degrees = parse_real("--env-rotation", text); }));
   command.add_flag("--clamp-radiance", options.clamp_radiance,
-                   "accept environments with NaN, infinite or negative radiance");
+                   "accept environments with NaN, infinite, negative or too large (1e30) radiance");
   add_parsed(command, "--size", "WxH", "size of the frame (default: 1280x800)",
              given("--size", [&](const std::string& text) { parse_size(text, options.width, options.height); }));
   add_parsed(command, "--camera", "EYE,TARGET,FOV",
-             "seven numbers; vertical field of view in degrees (default: the scene's)",
+             "seven numbers; vertical field of view in degrees; up is +Y, -Z for views straight up or down (default: "
+             "the scene's)",
              given("--camera", [&](const std::string& text) { options.camera = parse_camera(text); }));
   add_parsed(command, "--triangles", "N", "refine a built-in scene to at least so many triangles",
              given("--triangles", [&](const std::string& text) {

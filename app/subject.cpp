@@ -14,6 +14,8 @@
 #include "lighting/environment_light.h"
 #include "lighting/visibility_textures.h"
 #include "scenes/environment.h"
+#include "scenes/model_camera.h"
+#include "scenes/model_file.h"
 #include "scenes/scene.h"
 
 namespace twinshade {
@@ -217,9 +219,16 @@ FrameOptions frame_options(const SubjectOptions& options, const Scene& scene) {
   frame.height = options.height;
   frame.camera = scene.camera;
   if (options.camera) {
-    frame.camera.eye = options.camera->eye;
-    frame.camera.target = options.camera->target;
-    frame.camera.vertical_fov_degrees = options.camera->vertical_fov_degrees;
+    const auto& [eye, target, up, fov, near_plane, far_plane] = *options.camera;
+    const bool is_model = !model_file_ending(options.scene).empty();
+    if (is_model) {
+      frame.camera = camera_at(bounds_of(scene.positions), eye, target, fov);
+    } else {
+      frame.camera.eye = eye;
+      frame.camera.target = target;
+      frame.camera.vertical_fov_degrees = fov;
+      frame.camera.up = up_or_north(frame.camera.up, eye, target);
+    }
   }
   frame.albedo = options.albedo;
   frame.normal_map = options.normal_map;

@@ -1,8 +1,12 @@
 // The module of images/image_codec.h: OpenImageIO.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <exception>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -17,6 +21,36 @@ constexpr int kLargestSide = 65536;
 constexpr double kMostSamples = 0x1p30;  // 4 GiB as floats
 
 [[noreturn]] void refuse(const std::string& reason) { throw std::runtime_error(reason); }
+
+// libpng and its like write to stderr about damage, and OpenImageIO gives no way to ask them not to. Where the image is
+// refused, that says what is wrong; else what they wrote follows. For one thread at a time, as images are read.
+class StderrOfLibraries {
+ public:
+  StderrOfLibraries() : kept_(memfd_create("stderr", MFD_CLOEXEC)), own_(fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3)) {
+    if (kept_ >= 0 && own_ >= 0) dup2(kept_, STDERR_FILENO);
+  }
+  ~StderrOfLibraries() {
+    if (kept_ >= 0 && own_ >= 0) {
+      dup2(own_, STDERR_FILENO);
+      if (std::uncaught_exceptions() == exceptions_) pass_on();
+    }
+    if (kept_ >= 0) close(kept_);
+    if (own_ >= 0) close(own_);
+  }
+  StderrOfLibraries(const StderrOfLibraries&) = delete;
+  StderrOfLibraries& operator=(const StderrOfLibraries&) = delete;
+
+ private:
+  void pass_on() const {
+    char text[4096];
+    off_t at = 0;
+    for (ssize_t count; (count = pread(kept_, text, sizeof text, at)) > 0; at += count)
+      if (write(STDERR_FILENO, text, std::size_t(count)) < 0) return;
+  }
+
+  int kept_, own_;  // the libraries' text; the stderr that there was
+  int exceptions_ = std::uncaught_exceptions();
+};
 
 DecodedImage read_all(OIIO::ImageInput& input) {
   const OIIO::ImageSpec spec = input.spec();
@@ -66,14 +100,18 @@ DecodedImage read_all(OIIO::ImageInput& input) {
 }
 
 DecodedImage read_file(const std::string& path) {
+  const StderrOfLibraries quiet;
   OIIO::ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);
+  if (path.find('?') != std::string::npos)
+    refuse("the image library takes what follows a '?' in a name for options; rename it");
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path, &config);
   if (!input) refuse(OIIO::geterror());
   return read_all(*input);
 }
 
 DecodedImage read_memory(std::string_view bytes, bool png) {
+  const StderrOfLibraries quiet;
   OIIO::Filesystem::IOMemReader reader(const_cast<char*>(bytes.data()), bytes.size());
   OIIO::Filesystem::IOProxy* proxy = &reader;
   OIIO::ImageSpec config;

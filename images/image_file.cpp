@@ -1,6 +1,10 @@
 #include "images/image_file.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <new>
 #include <stdexcept>
 
 #include "base/error.h"
@@ -9,6 +13,8 @@
 
 namespace twinshade {
 namespace {
+
+constexpr const char* kNoMemory = "there is not enough memory for it; make it smaller";
 
 [[noreturn]] void refuse(const std::string& name, std::string reason) {
   reason = reason.substr(0, reason.find('\n'));
@@ -35,8 +41,7 @@ std::uint32_t crc32(std::string_view bytes) {
   return ~crc;
 }
 
-// libpng writes to stderr about damage; chunks that are all there with their checksums give it no reason to
-// (W3C, Portable network graphics, section 5).
+// The chunks are all there, with their checksums (W3C, Portable network graphics, section 5).
 bool png_is_whole(std::string_view bytes) {
   for (std::size_t at = 8; at + 12 <= bytes.size();) {
     const std::size_t length = big_endian(bytes, at);
@@ -72,6 +77,24 @@ void check_whole(std::string_view bytes, const std::string& name) {
     refuse(name, "the file is truncated or damaged");
 }
 
+// What a Radiance picture's values have been multiplied by: the product of its header's EXPOSURE lines (Ward, Radiance
+// file formats), which OpenImageIO does not divide by. 1 for other files. Only the header, up to an empty line, is
+// read.
+double radiance_exposure(std::string_view bytes, const std::string& name) {
+  double exposure = 1;
+  if (bytes.substr(0, 2) != "#?") return exposure;
+  while (!bytes.empty()) {
+    const std::size_t end = std::min(bytes.find('\n'), bytes.size());
+    const std::string line(bytes.substr(0, end));
+    if (line.empty() || line == "\r") break;
+    bytes.remove_prefix(std::min(end + 1, bytes.size()));
+    if (line.rfind("EXPOSURE=", 0) != 0) continue;
+    exposure *= std::strtod(line.c_str() + 9, nullptr);
+    if (!(exposure > 0 && std::isfinite(exposure))) refuse(name, "its header says " + line);
+  }
+  return exposure;
+}
+
 }  // namespace
 
 std::string lower_case_ending(const std::string& path) {
@@ -80,12 +103,29 @@ std::string lower_case_ending(const std::string& path) {
   return ending;
 }
 
+std::string pixel_name(std::size_t index, std::uint32_t width) {
+  return "pixel (" + std::to_string(index % width) + ", " + std::to_string(index / width) +
+         ") counted from the upper left";
+}
+
 DecodedImage decode_image_file(const std::string& path) {
-  check_whole(read_file(path), path);
   try {
-    return image_codec().read_file(path);
+    double exposure = 1;
+    {
+      const std::string bytes = read_file(path);
+      check_whole(bytes, path);
+      exposure = radiance_exposure(bytes, path);
+    }
+    DecodedImage image = image_codec().read_file(path);
+    if (exposure != 1)
+      for (float& value : image.texels) value = float(double(value) / exposure);
+    return image;
+  } catch (const UserError&) {
+    throw;
   } catch (const std::runtime_error& error) {
     refuse(path, error.what());
+  } catch (const std::bad_alloc&) {
+    refuse(path, kNoMemory);
   }
 }
 
@@ -96,6 +136,8 @@ DecodedImage decode_image_memory(std::string_view bytes, const std::string& name
     return image_codec().read_memory(bytes, is_png(bytes));
   } catch (const std::runtime_error& error) {
     refuse(name, error.what());
+  } catch (const std::bad_alloc&) {
+    refuse(name, kNoMemory);
   }
 }
 

@@ -1,4 +1,4 @@
-// Image files as they are: no colour conversion, no flipping.
+// Image files as they are: no colour conversion, no flipping. Radiance pictures are divided by their EXPOSURE.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ struct DecodedImage {
   std::vector<float> texels;   // row 0 is the upper one; integers divided by their largest value
 };
 
-// UserError naming the file: missing, truncated, damaged, of no known format, of no size.
+// UserError naming the file: missing, truncated, damaged, of no known format, of no size, larger than memory.
 DecodedImage decode_image_file(const std::string& path);
 // A PNG or JPEG file in memory; `name` for messages.
 DecodedImage decode_image_memory(std::string_view bytes, const std::string& name);
@@ -34,6 +34,9 @@ struct ImageToWrite {
 // Format by ending. The same image is the same bytes: no time of writing. UserError naming the path where it cannot be
 // written; nothing half-written stays behind.
 void write_image_file(const std::string& path, const ImageToWrite& image);
+
+// Pixel `index` of an image, row by row from the upper left, for messages.
+std::string pixel_name(std::size_t index, std::uint32_t width);
 
 // ".png" of "a/B.PNG"; empty where there is none.
 std::string lower_case_ending(const std::string& path);

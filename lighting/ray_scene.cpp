@@ -19,6 +19,7 @@
 
 #include "base/error.h"
 #include "base/sanitizers.h"
+#include "scenes/scene_limits.h"
 
 namespace twinshade {
 namespace {
@@ -212,9 +213,12 @@ RayScene::RayScene(const Scene& scene) : impl_(std::make_unique<Impl>()) {
     self.triangles.push_back(triangle);
   }
   if (self.triangles.empty()) return;
-  const double diagonal = glm::length(high - low);
-  const glm::dvec3 reach = glm::max(glm::abs(low), glm::abs(high));
-  self.padding = float(std::max({reach.x, reach.y, reach.z, diagonal}) * 0x1p-18);
+  const glm::dvec3 corner = glm::max(glm::abs(low), glm::abs(high));
+  const double reach = std::max({corner.x, corner.y, corner.z}), diagonal = glm::length(high - low);
+  if (reach > kLargestCoordinate)
+    throw UserError((scene.name.empty() ? "the scene" : scene.name) +
+                    ": its triangles reach farther than 1e15 from the origin; scale it down");
+  self.padding = float(std::max(reach, diagonal) * 0x1p-18);
   self.lift = std::min(diagonal, kLargestSpread * core_diagonal(self.triangles)) * kRayLift;
 
   // Embree's tree over them

@@ -27,7 +27,8 @@ struct RayHit {
 class RayScene {
  public:
   // The instruction set that Embree uses can be chosen by the environment variable TWINSHADE_EMBREE_ISA (sse2, sse4.2,
-  // avx, avx2, avx512). UserError where Embree refuses it.
+  // avx, avx2, avx512). UserError where Embree refuses it, or where the scene reaches beyond
+  // kLargestCoordinate.
   explicit RayScene(const Scene& scene);
   ~RayScene();
   RayScene(const RayScene&) = delete;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 #include "base/error.h"
 #include "base/hash.h"
@@ -73,7 +74,13 @@ Environment load_environment(const std::string& name_or_path, bool clamp_radianc
   if (name_or_path == "studio") return paint_studio();
   if (name_or_path == "window") return paint_window();
   if (name_or_path == "constant") return paint_constant();
-  if (is_environment_file(name_or_path)) return load_environment_file(name_or_path, clamp_radiance);
+  if (is_environment_file(name_or_path)) {
+    try {
+      return load_environment_file(name_or_path, clamp_radiance);
+    } catch (const std::bad_alloc&) {
+      throw UserError(name_or_path + ": there is not enough memory for this environment; make it smaller");
+    }
+  }
   if (name_or_path.find_first_of("/.") != std::string::npos)
     throw UserError(name_or_path + ": not an environment: the name must end in .hdr or .exr");
   throw UserError(unknown_name_message("environment", name_or_path, environment_names()));

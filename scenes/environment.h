@@ -35,8 +35,8 @@ class PixelDirections {
 };
 
 // "sky", "studio", "window", "constant", or a .hdr/.exr file. UserError: unknown name (nearest suggested), unreadable
-// or truncated file, NaN, infinite or negative radiance (naming the pixel; clamp_radiance replaces NaN and negatives by
-// 0 and infinities by the largest finite value instead).
+// or truncated file, NaN, infinite, negative radiance or one above 1e30 (naming the pixel; clamp_radiance replaces NaN
+// and negatives by 0 and what is too large by the largest value that is not).
 Environment load_environment(const std::string& name_or_path, bool clamp_radiance = false);
 // Rotated about Y, counter-clockwise seen from above, by resampling on lookup: same size.
 Environment rotate_environment(const Environment& environment, double degrees);

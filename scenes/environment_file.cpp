@@ -10,10 +10,8 @@
 namespace twinshade {
 namespace {
 
-std::string pixel_name(std::size_t index, std::uint32_t width) {
-  return "pixel (" + std::to_string(index % width) + ", " + std::to_string(index / width) +
-         ") counted from the upper left";
-}
+// Sums of larger ones over a sphere, lit from and squared, are not finite as floats.
+constexpr float kLargestRadiance = 1e30f;
 
 }  // namespace
 
@@ -28,19 +26,20 @@ Environment load_environment_file(const std::string& path, bool clamp_radiance) 
   environment.radiance.resize(std::size_t(image.width) * image.height);
   float largest = 0;
   for (float value : image.texels)
-    if (std::isfinite(value)) largest = std::max(largest, value);
+    if (value <= kLargestRadiance) largest = std::max(largest, value);
   for (std::size_t i = 0; i < environment.radiance.size(); ++i)
     for (int c = 0; c < 3; ++c) {
       float value = image.texels[i * image.channels + (image.channels >= 3 ? std::size_t(c) : 0)];
-      const char* trouble = std::isnan(value)   ? "is not a number"
-                            : value < 0         ? "is negative"
-                            : std::isinf(value) ? "is infinite"
-                                                : nullptr;
+      const char* trouble = std::isnan(value)          ? "is not a number"
+                            : value < 0                ? "is negative"
+                            : std::isinf(value)        ? "is infinite"
+                            : value > kLargestRadiance ? "is above 1e30"
+                                                       : nullptr;
       if (trouble) {
         if (!clamp_radiance)
           throw UserError(path + ": radiance at " + pixel_name(i, image.width) + " " + trouble +
                           "; repair the image or use --clamp-radiance");
-        value = std::isinf(value) && value > 0 ? largest : 0;
+        value = value > 0 ? largest : 0;
       }
       environment.radiance[i][c] = value == 0 ? 0 : value;  // no negative zeros
     }

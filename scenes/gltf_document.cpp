@@ -37,6 +37,8 @@ constexpr std::array kSupported = {"KHR_texture_transform",
 
 // No accessor of a sound file has more elements; a damaged count must not ask for all memory.
 constexpr std::uint64_t kMostElements = 1u << 28;
+// All zeros but for a sparse part, of which a small file may claim any number.
+constexpr std::uint64_t kMostElementsWithoutView = 1u << 20;
 
 std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
   std::uint32_t value = 0;
@@ -132,8 +134,12 @@ void GltfDocument::check_version() const {
   if (version.substr(0, 2) != "2.") fail("glTF version '" + version + "' is not supported; only 2.x is");
 }
 
+// The JSON library quotes what it read last, which may be megabytes of a data URI; names in a file may be as long.
 void GltfDocument::fail(const std::string& what) const {
-  std::string line = path_ + ": " + what;
+  constexpr std::size_t kMost = 300;
+  std::string line = what.substr(0, what.find("; last read: "));
+  if (line.size() > kMost) line = line.substr(0, kMost) + " ...";
+  line = path_ + ": " + line;
   for (char& c : line)
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';
   throw UserError(line);
@@ -199,7 +205,11 @@ std::string GltfDocument::resource(const std::string& uri, const std::string& wh
   }
   if (uri.find("://") != std::string::npos)
     fail(what + " is on the net (" + uri + "); only files beside the model are read");
-  *file = (std::filesystem::path(path_).parent_path() / percent_decoded(uri)).string();
+  const std::string name = percent_decoded(uri);
+  for (char c : name)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      fail("damaged: the URI of " + what + " has a control character in it (" + uri + ")");
+  *file = (std::filesystem::path(path_).parent_path() / name).string();
   return "";
 }
 
@@ -288,6 +298,8 @@ GltfDocument::Layout GltfDocument::layout(std::size_t accessor) const {
     result.stride = std::size_t(unsigned_number(element("bufferViews", std::size_t(index)), "byteStride", size));
     result.bytes =
         fit(view(std::size_t(index)), unsigned_number(object, "byteOffset", 0), size, result.stride, result.count, "");
+  } else if (result.count > kMostElementsWithoutView) {
+    fail("damaged: " + name + " has " + std::to_string(result.count) + " elements, but no bufferView");
   }
   if (const auto sparse = object.find("sparse"); sparse != object.end()) {
     const std::uint64_t count = sparse->at("count").get<std::uint64_t>();

@@ -11,6 +11,7 @@
 #include "base/portable_math.h"
 #include "scenes/gltf_document.h"
 #include "scenes/material_image.h"
+#include "scenes/scene_limits.h"
 
 namespace twinshade {
 namespace {
@@ -338,7 +339,7 @@ class Reader {
     if (!source.file.empty()) model_.files.push_back(source.file);
     const DecodedImage decoded =
         source.file.empty() ? decode_image_memory(source.bytes, source.name) : decode_image_file(source.file);
-    model_.images.push_back(is_normal ? normal_image(decoded, scale) : albedo_image(decoded));
+    model_.images.push_back(is_normal ? normal_image(decoded, scale) : albedo_image(decoded, source.name));
     return images_[key] = int(model_.images.size()) - 1;
   }
 
@@ -349,9 +350,16 @@ class Reader {
     const json& perspective = camera["perspective"];
     const dmat4& world = world_[node];
     Camera result;
+    const double across = glm::length(dvec3(world[2])), upright = glm::length(dvec3(world[1]));
+    if (!(across > 0 && upright > 0 && std::isfinite(across) && std::isfinite(upright)))
+      document_.fail("the camera of node " + std::to_string(node) + " has no direction: its node is scaled to nothing");
     result.eye = dvec3(world[3]);
-    result.target = result.eye - glm::normalize(dvec3(world[2]));
-    result.up = glm::normalize(dvec3(world[1]));
+    const double far_out = glm::length(result.eye);
+    if (!(far_out <= kLargestCoordinate))
+      document_.fail("the camera of node " + std::to_string(node) + " lies farther than 1e15 from the origin");
+    // Far from the origin, a target one metre away would lose the direction to rounding.
+    result.target = result.eye - dvec3(world[2]) / across * std::max(1.0, far_out * 1e-6);
+    result.up = dvec3(world[1]) / upright;
     result.vertical_fov_degrees = gltf_number(perspective, "yfov", 1) * 180 / portable::kPi;
     result.near_plane = gltf_number(perspective, "znear", 0.1);
     result.far_plane = gltf_number(perspective, "zfar", result.near_plane * 10000);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/error.h"
 #include "base/portable_math.h"
 
 namespace twinshade {
@@ -19,16 +20,20 @@ double srgb_decoded(double encoded) {
   return encoded <= 0.04045 ? encoded / 12.92 : portable::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-Image albedo_image(const DecodedImage& decoded) {
+Image albedo_image(const DecodedImage& decoded, const std::string& name) {
   // Integer samples take few values: decode each once.
   const std::size_t steps = decoded.bits == 8 ? 256 : decoded.bits == 16 ? 65536 : 0;
   std::vector<float> linear(steps);
   for (std::size_t i = 0; i < steps; ++i) linear[i] = float(srgb_decoded(double(i) / double(steps - 1)));
   Image image{decoded.width, decoded.height, std::vector<float>(std::size_t(decoded.width) * decoded.height * 4, 1.0f)};
-  for (std::size_t y = 0; y < image.height; ++y)
+  for (std::size_t y = image.height; y-- > 0;)
     for (std::size_t x = 0; x < image.width; ++x)
       for (std::size_t c = 0; c < 3; ++c) {
         const float value = sample(decoded, x, y, c);
+        if (!(value >= 0 && std::isfinite(value)))
+          throw UserError(name + ": the colour at " +
+                          pixel_name((decoded.height - 1 - y) * decoded.width + x, decoded.width) +
+                          " is negative or not finite; repair the image");
         image.texels[(y * image.width + x) * 4 + c] =
             steps ? linear[std::size_t(double(value) * double(steps - 1) + 0.5)] : value;
       }

@@ -1,6 +1,8 @@
 // From image files to what materials hold: row 0 at the bottom, linear colours, unit normals.
 #pragma once
 
+#include <string>
+
 #include "images/image_file.h"
 #include "scenes/scene.h"
 
@@ -10,7 +12,8 @@ namespace twinshade {
 double srgb_decoded(double encoded);
 
 // Integer images are sRGB, floating-point ones linear. Grey becomes three equal channels; alpha is 1.
-Image albedo_image(const DecodedImage& decoded);
+// UserError naming the image (`name`) and its first pixel that is negative or not finite.
+Image albedo_image(const DecodedImage& decoded, const std::string& name);
 
 // Tangent-space normals stored as n * 0.5 + 0.5, x and y times `scale`, then made unit. Texels that are no direction
 // become (0, 0, 1).

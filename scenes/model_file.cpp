@@ -6,19 +6,21 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <new>
 #include <unordered_map>
 
 #include "base/error.h"
-#include "base/portable_math.h"
 #include "images/image_file.h"
 #include "scenes/face_normals.h"
 #include "scenes/gltf_model.h"
 #include "scenes/lightmap_check.h"
 #include "scenes/mikktspace.h"
+#include "scenes/model_camera.h"
 #include "scenes/model_part.h"
 #include "scenes/obj_model.h"
 #include "scenes/orthonormal_basis.h"
 #include "scenes/patch_mesh.h"
+#include "scenes/scene_limits.h"
 
 namespace twinshade {
 namespace {
@@ -54,16 +56,17 @@ class Assembly {
     }
     for (const ModelPart& part : model_.parts) add(part);
     if (scene_.indices.empty()) throw UserError(path_ + ": has no triangles");
+    const Bounds bounds = bounds_of(scene_.positions);
+    if (glm::length(bounds.high - bounds.low) < kSmallestExtent)
+      throw UserError(path_ + ": all its triangles lie within 1e-15 of one point; scale the model up");
     drop_unused_materials();
+    check_colours();
     decide_lightmap();
     say(missing_normals_, missing_normals_ + ": no normals; made from the triangles");
     say(missing_uvs_,
         missing_uvs_ + ": no UVs; tangent frames come from the normals, images and normal maps are ignored");
     say(made_tangents_, "no tangents in the file: made by the MikkTSpace rules");
-    if (model_.camera)
-      scene_.camera = *model_.camera;
-    else
-      frame_camera();
+    scene_.camera = model_.camera ? *model_.camera : framing_camera(bounds);
     return std::move(scene_);
   }
 
@@ -78,6 +81,9 @@ class Assembly {
       const glm::vec3& p = part.positions[i];
       if (!finite(p))
         throw UserError(path_ + ": " + part.name + ": the position of vertex " + std::to_string(i) + " is not finite");
+      if (std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) > kLargestCoordinate)
+        throw UserError(path_ + ": " + part.name + ": vertex " + std::to_string(i) +
+                        " lies farther than 1e15 from the origin; scale the model down");
       corners.positions.push_back(p);
       const bool uv_finite = part.uvs.empty() || (std::isfinite(part.uvs[i].x) && std::isfinite(part.uvs[i].y));
       if (!uv_finite)
@@ -200,6 +206,15 @@ class Assembly {
     scene_.materials = std::move(used);
   }
 
+  void check_colours() const {
+    for (const Material& material : scene_.materials)
+      for (int c = 0; c < 3; ++c)
+        if (!(material.albedo[c] >= 0 && std::isfinite(material.albedo[c])))
+          throw UserError(path_ + ": material '" + material.name + "': its colour (" +
+                          std::to_string(material.albedo.x) + ", " + std::to_string(material.albedo.y) + ", " +
+                          std::to_string(material.albedo.z) + ") is negative or not finite");
+  }
+
   void decide_lightmap() {
     std::string reason = some_lightmap_ ? "only some parts have second UVs" : "no second UVs";
     if (has_lightmap_) reason = lightmap_fault(scene_.positions, scene_.lightmap_uvs, scene_.indices);
@@ -207,31 +222,6 @@ class Assembly {
     if (has_lightmap_) reason = "the second UVs cannot hold a lightmap (" + reason + ")";
     scene_.lightmap_uvs.clear();
     scene_.notes.push_back(reason + ": light is baked per vertex");
-  }
-
-  // Looks at the middle of the bounds from the front, a little right and above, as near as has all corners in a square
-  // view.
-  void frame_camera() {
-    dvec3 low(scene_.positions[0]), high = low;
-    for (const glm::vec3& p : scene_.positions) low = glm::min(low, dvec3(p)), high = glm::max(high, dvec3(p));
-    const dvec3 middle = 0.5 * (low + high);
-    const double radius = std::max(glm::length(high - middle), 1e-6);
-    Camera& camera = scene_.camera;
-    camera.vertical_fov_degrees = 40;
-    const double slope = portable::tan(0.5 * camera.vertical_fov_degrees * portable::kPi / 180);
-    const dvec3 back = glm::normalize(dvec3(0.55, 0.40, 1.0)), right = glm::normalize(glm::cross(camera.up, back));
-    const dvec3 up = glm::cross(back, right);
-    double distance = 0.1 * radius;
-    for (int corner = 0; corner < 8; ++corner) {
-      const dvec3 at =
-          dvec3(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z) - middle;
-      const double aside = std::max(std::fabs(glm::dot(at, right)), std::fabs(glm::dot(at, up)));
-      distance = std::max(distance, 1.05 * aside / slope + glm::dot(at, back));
-    }
-    camera.target = middle;
-    camera.eye = middle + back * distance;
-    camera.near_plane = std::max(0.01 * radius, distance - 1.1 * radius);
-    camera.far_plane = distance + 1.1 * radius;
   }
 
   std::string path_;
@@ -270,8 +260,12 @@ std::string model_file_ending(const std::string& path) {
 }
 
 Scene load_model_file(const std::string& path) {
-  Model model = model_file_ending(path) == ".obj" ? read_obj_model(path) : read_gltf_model(path);
-  return Assembly(path, std::move(model)).scene();
+  try {
+    Model model = model_file_ending(path) == ".obj" ? read_obj_model(path) : read_gltf_model(path);
+    return Assembly(path, std::move(model)).scene();
+  } catch (const std::bad_alloc&) {
+    throw UserError(path + ": there is not enough memory for this model and its pictures; make them smaller");
+  }
 }
 
 }  // namespace twinshade

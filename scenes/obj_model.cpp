@@ -1,8 +1,11 @@
 #include "scenes/obj_model.h"
 
+#include <assimp/DefaultIOSystem.h>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <assimp/Importer.hpp>
 #include <filesystem>
 #include <map>
@@ -30,14 +33,54 @@ std::string texture_path(const std::string& model, std::string name) {
   return (fs::path(model).parent_path() / name).string();
 }
 
+// assimp takes a byte order mark for a part of the first line, and leaves that out.
+std::string without_byte_order_mark(std::string text) {
+  if (text.compare(0, 3, "\xef\xbb\xbf") == 0) text.erase(0, 3);
+  return text;
+}
+
+std::string trimmed(const std::string& text) {
+  const char* const blanks = " \t\r";
+  const std::size_t first = text.find_first_not_of(blanks);
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) + 1 - first);
+}
+
+std::string library_name(std::size_t index) { return "library_" + std::to_string(index); }
+
+// What assimp sees: the model's text, and its material libraries as library_name calls them.
+class Files : public Assimp::DefaultIOSystem {
+ public:
+  Files(std::string path, std::string text, std::vector<std::string> libraries)
+      : path_(std::move(path)), text_(std::move(text)), libraries_(std::move(libraries)) {}
+
+  Assimp::IOStream* Open(const char* file, const char*) override {
+    if (file == path_) return stream(text_);
+    for (std::size_t i = 0; i < libraries_.size(); ++i)
+      if (fs::path(file).filename() == library_name(i))
+        return stream(without_byte_order_mark(read_file(libraries_[i])));
+    return nullptr;
+  }
+
+ private:
+  static Assimp::IOStream* stream(const std::string& text) {
+    auto* bytes = new std::uint8_t[text.size()];
+    std::copy(text.begin(), text.end(), bytes);
+    return new Assimp::MemoryIOStream(bytes, text.size(), true);
+  }
+
+  std::string path_, text_;
+  std::vector<std::string> libraries_;
+};
+
 class Reader {
  public:
   explicit Reader(const std::string& path) : path_(path) {}
 
   Model read() {
     model_.files.push_back(path_);
-    check_material_libraries(read_file(path_));
+    std::string text = with_libraries(without_byte_order_mark(read_file(path_)));
     Assimp::Importer importer;
+    importer.SetIOHandler(new Files(path_, std::move(text), libraries_));  // which it deletes
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     const aiScene* scene = importer.ReadFile(path_, aiProcess_Triangulate | aiProcess_SortByPType);
     if (!scene || !scene->mRootNode)
@@ -49,18 +92,43 @@ class Reader {
   }
 
  private:
-  // assimp leaves out a library that is not there without a word.
-  void check_material_libraries(const std::string& content) {
+  // The model's text with a line for each material library that is there: assimp takes all names of a line for one,
+  // and puts another file in the place of one that is missing.
+  std::string with_libraries(const std::string& content) {
     std::istringstream lines(content);
-    for (std::string line; std::getline(lines, line);) {
-      if (line.compare(0, 7, "mtllib ") != 0) continue;
-      std::string name = line.substr(7);
-      while (!name.empty() && (name.back() == '\r' || name.back() == ' ')) name.pop_back();
-      std::error_code code;
-      model_.files.push_back(texture_path(path_, name));
-      if (!fs::exists(model_.files.back(), code))
-        model_.notes.push_back("material library " + name + " is missing: its materials are plain");
+    std::string text;
+    for (std::string line; std::getline(lines, line); text += '\n') {
+      const std::size_t word = line.find_first_not_of(" \t");
+      if (word == std::string::npos || line.compare(word, 6, "mtllib") != 0 ||
+          line.find_first_of(" \t\r", word) != word + 6) {
+        text += line;
+        continue;
+      }
+      for (const std::string& name : library_names(trimmed(line.substr(word + 6)))) {
+        const std::string file = texture_path(path_, name);
+        model_.files.push_back(file);
+        std::error_code code;
+        if (!fs::exists(file, code) || fs::is_directory(file, code)) {
+          model_.notes.push_back("material library " + name +
+                                 (fs::exists(file, code) ? " is a folder" : " is missing") +
+                                 ": its materials are plain");
+          continue;
+        }
+        text += "mtllib " + library_name(libraries_.size()) + "\n";
+        libraries_.push_back(file);
+      }
     }
+    return text;
+  }
+
+  // Names may have blanks in them: a file of the whole name is the one that is meant.
+  std::vector<std::string> library_names(const std::string& all) const {
+    std::error_code code;
+    if (!all.empty() && fs::exists(texture_path(path_, all), code)) return {all};
+    std::istringstream words(all);
+    std::vector<std::string> names;
+    for (std::string name; words >> name;) names.push_back(name);
+    return names;
   }
 
   void read_material(const aiMaterial& from) {
@@ -93,7 +161,7 @@ class Reader {
       model_.notes.push_back("bump map " + name + " is a height field, not a normal map: ignored");
       return images_[key] = -1;
     }
-    model_.images.push_back(is_normal ? normal_image(decoded, 1) : albedo_image(decoded));
+    model_.images.push_back(is_normal ? normal_image(decoded, 1) : albedo_image(decoded, path));
     return images_[key] = int(model_.images.size()) - 1;
   }
 
@@ -119,6 +187,7 @@ class Reader {
 
   std::string path_;
   Model model_;
+  std::vector<std::string> libraries_;  // that are there, in the text's order
   std::map<std::pair<std::string, bool>, int> images_;
 };
 

@@ -1,7 +1,9 @@
 #include "images/image_file.h"
 
 #include <doctest/doctest.h>
+#include <unistd.h>
 
+#include <cstdio>
 #include <random>
 
 #include "base/file.h"
@@ -18,6 +20,51 @@ std::vector<T> noise(std::size_t count) {
   std::vector<T> values(count);
   for (T& v : values) v = T(random());
   return values;
+}
+
+std::string big_endian(std::uint32_t value) {
+  return {char(value >> 24), char(value >> 16 & 255), char(value >> 8 & 255), char(value & 255)};
+}
+
+// A PNG chunk with its right checksum.
+std::string chunk(const std::string& type, const std::string& data) {
+  std::uint32_t crc = ~0u;
+  for (char byte : type + data) {
+    crc ^= static_cast<unsigned char>(byte);
+    for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0);
+  }
+  return big_endian(std::uint32_t(data.size())) + type + data + big_endian(~crc);
+}
+
+// A zlib stream of one stored block; its check (Adler-32), changed by `error`.
+std::string stored(const std::string& data, std::uint32_t error = 0) {
+  std::uint32_t a = 1, b = 0;
+  for (char byte : data) a = (a + static_cast<unsigned char>(byte)) % 65521, b = (b + a) % 65521;
+  const char size = char(data.size()), inverse = char(~data.size());
+  return std::string("\x78\x01\x01", 3) + size + '\0' + inverse + '\xff' + data + big_endian((b << 16 | a) ^ error);
+}
+
+std::string header(int width, char depth, char colour_type) {
+  return chunk("IHDR", big_endian(std::uint32_t(width)) + big_endian(2) + depth + colour_type + std::string(3, '\0'));
+}
+
+const std::string kPngStart = "\x89PNG\r\n\x1a\n", kPngEnd = chunk("IEND", "");
+
+// What `call` lets libraries write to stderr.
+template <class Call>
+std::string written_to_stderr(Call call) {
+  std::FILE* file = std::tmpfile();
+  REQUIRE(file);
+  const int old = dup(STDERR_FILENO);
+  dup2(fileno(file), STDERR_FILENO);
+  call();
+  dup2(old, STDERR_FILENO);
+  close(old);
+  std::string text(4096, '\0');
+  std::rewind(file);
+  text.resize(std::fread(text.data(), 1, text.size(), file));
+  std::fclose(file);
+  return text;
 }
 
 }  // namespace
@@ -62,4 +109,42 @@ TEST_CASE("truncated PNG and JPEG are refused, from files and from memory") {
       CHECK(user_error([&] { decode_image_memory(start, "part.memory"); }).find("part.memory") != std::string::npos);
     }
   }
+}
+
+TEST_CASE("PNGs whose chunks are whole but damaged within are refused, and libpng writes nothing to stderr") {
+  TemporaryFolder folder;
+  const std::string rows(6, '\0');  // two rows of two grey pixels, each after its filter
+  const std::string good = kPngStart + header(2, 8, 0) + chunk("IDAT", stored(rows)) + kPngEnd;
+  CHECK(decode_image_memory(good, "good").width == 2);
+  std::string odd_filter = rows;
+  odd_filter[3] = 9;
+  const std::vector<std::pair<const char*, std::string>> damaged{
+      {"IDAT is no zlib stream", header(2, 8, 0) + chunk("IDAT", "garbage!")},
+      {"no IDAT", header(2, 8, 0)},
+      {"IDAT is short", header(2, 8, 0) + chunk("IDAT", stored(std::string(3, '\0')))},
+      {"filter 9", header(2, 8, 0) + chunk("IDAT", stored(odd_filter))},
+      {"wrong Adler-32", header(2, 8, 0) + chunk("IDAT", stored(rows, 1))},
+      {"no PLTE", header(2, 8, 3) + chunk("IDAT", stored(rows))},
+      {"depth 7", header(2, 7, 0) + chunk("IDAT", stored(rows))},
+      {"no width", header(0, 8, 0) + chunk("IDAT", stored(rows))},
+      {"IHDR is short", chunk("IHDR", "x") + chunk("IDAT", stored(rows))}};
+  for (const auto& [what, chunks] : damaged) {
+    const std::string bytes = kPngStart + chunks + kPngEnd, file = folder.write("damaged.png", bytes);
+    for (bool memory : {false, true}) {
+      std::string message;
+      const std::string noise = written_to_stderr(
+          [&] { message = user_error([&] { memory ? decode_image_memory(bytes, file) : decode_image_file(file); }); });
+      INFO(what << ": " << message << " | " << noise);
+      CHECK(message.find("damaged.png: cannot be read as an image") != std::string::npos);
+      CHECK(noise.empty());
+    }
+  }
+}
+
+TEST_CASE("a picture with a question mark in its name is refused with the reason") {
+  TemporaryFolder folder;
+  write_image(folder.name("a.png"), 4, 4, 1, std::vector<std::uint8_t>(16));
+  const std::string name = folder.write("a?b=1.png", read_file(folder.name("a.png")));
+  CHECK(user_error([&] { decode_image_file(name); }).find("a?b=1.png: cannot be read as an image: the image library") !=
+        std::string::npos);
 }

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <string>
 
+#include "base/error.h"
 #include "lighting/random.h"
 #include "tests/lighting/small_scenes.h"
 
@@ -164,6 +166,21 @@ TEST_CASE("triangles without area or with infinite corners are never hit") {
   const RayScene nothing(scene);
   CHECK(nothing.closest({0, 2, 0}, {0, -1, 0}).triangle == kNoTriangle);
   CHECK_FALSE(nothing.occluded({0, 2, 0}, {0, -1, 0}));
+}
+
+TEST_CASE("a scene too far out for Embree's floats is refused by name, what no triangle uses is not") {
+  Scene scene = floor_scene();
+  scene.positions.push_back(glm::vec3(1e20f));
+  CHECK(RayScene(scene).occluded({0, 2, 0}, {0, -1, 0}));
+  add_rectangle(scene, {2e15f, 0, 0}, {1e15f, 0, 0}, {0, 0, -1e15f}, {0, 0}, 1);
+  std::string refusal;
+  try {
+    const RayScene rays(scene);
+  } catch (const UserError& error) {
+    refusal = error.what();
+  }
+  CHECK(refusal.find("test: ") == 0);
+  CHECK(refusal.find("1e15") != std::string::npos);
 }
 
 }  // namespace

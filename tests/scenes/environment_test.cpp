@@ -168,6 +168,23 @@ TEST_CASE("an .hdr file's mantissas are worth 2^(exponent - 136)") {
     }
 }
 
+TEST_CASE("an .hdr file's values are divided by the product of its exposures") {
+  TemporaryFolder folder;
+  const std::string plain = flat_rgbe(8, 2, std::vector<std::uint8_t>(64, 130));
+  const auto with = [&](const std::string& lines) {
+    std::string text = plain;
+    text.insert(text.find('\n') + 1, lines);
+    return folder.write("e.hdr", text);
+  };
+  const glm::vec3 value = load_environment(with("")).radiance[0];
+  CHECK(load_environment(with("EXPOSURE=8\nEXPOSURE= 0.25\n")).radiance[0] == value / 2.0f);
+  for (const char* bad : {"EXPOSURE=0\n", "EXPOSURE=-1\n", "EXPOSURE=x\n", "EXPOSURE=inf\n"}) {
+    const std::string message = user_error([&] { load_environment(with(bad)); });
+    INFO(message);
+    CHECK(message.find("e.hdr: cannot be read as an image: its header says EXPOSURE=") != std::string::npos);
+  }
+}
+
 TEST_CASE("an .exr file is read as it is, row 0 at the zenith") {
   TemporaryFolder folder;
   std::vector<float> values;
@@ -180,7 +197,7 @@ TEST_CASE("an .exr file is read as it is, row 0 at the zenith") {
   CHECK(load_environment(folder.name("grey.exr")).radiance[5] == glm::vec3(2.5f));
 }
 
-TEST_CASE("radiance that is NaN, infinite or negative is refused by pixel, or clamped") {
+TEST_CASE("radiance that is NaN, infinite, negative or too large to be summed is refused by pixel, or clamped") {
   TemporaryFolder folder;
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   struct Case {
@@ -188,8 +205,8 @@ TEST_CASE("radiance that is NaN, infinite or negative is refused by pixel, or cl
     const char* word;
     float clamped;
   };
-  for (const Case& bad :
-       {Case{nan, "not a number", 0}, Case{inf, "infinite", 9}, Case{-inf, "negative", 0}, Case{-1, "negative", 0}}) {
+  for (const Case& bad : {Case{nan, "not a number", 0}, Case{inf, "infinite", 9}, Case{-inf, "negative", 0},
+                          Case{-1, "negative", 0}, Case{3e38f, "above 1e30", 9}}) {
     std::vector<float> values(8 * 4 * 3, 1.0f);
     values[0] = 9;
     values[3 * (2 * 8 + 5) + 1] = bad.value;

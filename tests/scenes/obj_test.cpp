@@ -112,3 +112,67 @@ TEST_CASE("what is missing from an OBJ is said or refused") {
   CHECK(user_error([&] { load_scene(folder.name("cube.obj"), 1000); }).find("--triangles") != std::string::npos);
   CHECK(user_error([&] { load_scene(folder.name("cube.fbx")); }).find(".gltf, .glb or .obj") != std::string::npos);
 }
+
+TEST_CASE("an OBJ too far out or too small to be drawn is refused by name, from 1e-14 to 1e14 it is framed") {
+  TemporaryFolder folder;
+  const auto triangle_of_side = [&](const std::string& side) {
+    return folder.write("side.obj", "v 0 0 0\nv " + side + " 0 0\nv 0 0 -" + side + "\nv 1e30 0 0\nf 1 2 3\n");
+  };
+  for (const char* side : {"1e-14", "1e-7", "1", "1e14"}) {
+    const Scene scene = load_scene(triangle_of_side(side));
+    const double distance = glm::length(scene.camera.target - scene.camera.eye), size = std::stod(side);
+    CAPTURE(side);
+    CHECK(distance > size);
+    CHECK(distance < 4 * size);
+  }
+  for (const char* side : {"2e15", "1e20", "1e25"}) {
+    const std::string message = user_error([&] { load_scene(triangle_of_side(side)); });
+    INFO(message);
+    CHECK(message.find("side.obj: mesh ") != std::string::npos);
+    CHECK(message.find("farther than 1e15") != std::string::npos);
+  }
+  for (const char* side : {"1e-16", "1e-20", "0"})
+    CHECK(user_error([&] { load_scene(triangle_of_side(side)); }).find("side.obj: all its triangles") !=
+          std::string::npos);
+}
+
+TEST_CASE("a byte order mark before an OBJ or its materials loses nothing") {
+  TemporaryFolder folder;
+  const std::string mark = "\xef\xbb\xbf";
+  folder.write("m.mtl", mark + "newmtl a\nKd .25 .5 1\n");
+  const Scene scene =
+      load_scene(folder.write("m.obj", mark + "v 0 0 5\nv 1 0 0\nv 0 1 0\nmtllib m.mtl\nusemtl a\nf 1 2 3\n"));
+  REQUIRE(scene.triangle_count() == 1);
+  CHECK(scene.positions[scene.indices[0]] == glm::vec3(0, 0, 5));
+  CHECK(scene.materials[0].albedo == glm::vec3(0.25f, 0.5f, 1));
+}
+
+TEST_CASE("material libraries: several on a line, names with blanks, indented, missing, a folder") {
+  TemporaryFolder folder;
+  folder.write("a.mtl", "newmtl a\nKd 1 0 0\n");
+  folder.write("b.mtl", "newmtl b\nKd 0 1 0\n");
+  folder.write("c d.mtl", "newmtl c\nKd 0 0 1\n");
+  folder.write("m.mtl", "newmtl a\nKd 0 0 0.5\n");  // has the model's name, but nobody asks for it
+  const auto model = [&](const std::string& libraries) {
+    return load_scene(folder.write("m.obj", libraries + "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n"
+                                                        "usemtl b\nf 1 3 2\nusemtl c\nf 2 3 1\n"));
+  };
+  for (const char* libraries :
+       {"mtllib a.mtl b.mtl\nmtllib c d.mtl\n", "  mtllib\tb.mtl  a.mtl\r\n\tmtllib .\\c d.mtl \r\n"}) {
+    const Scene scene = model(libraries);
+    CAPTURE(libraries);
+    CHECK(!has_note(scene, "missing"));
+    REQUIRE(scene.materials.size() == 3);
+    for (int i = 0; i < 3; ++i) {
+      const Material& material = scene.materials[std::size_t(i)];
+      CHECK(material.albedo[material.name[0] - 'a'] == 1);
+    }
+    CHECK(file_names(scene) == std::set<std::string>{"m.obj", "a.mtl", "b.mtl", "c d.mtl"});
+  }
+  const Scene missing = model("  mtllib e.mtl\nmtllib .\nmtllib\n");
+  CHECK(has_note(missing, "material library e.mtl is missing"));
+  CHECK(has_note(missing, "material library . is a folder"));
+  CHECK(!has_note(missing, "material library  "));
+  CHECK(missing.triangle_count() == 3);
+  for (const Material& material : missing.materials) CHECK(material.albedo != glm::vec3(0, 0, 0.5f));
+}

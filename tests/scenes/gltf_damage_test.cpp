@@ -1,0 +1,74 @@
+// glTF files that are wrong in ways that cost more than a refusal: floods of words, of memory, cameras of no direction.
+#include <doctest/doctest.h>
+
+#include "scenes/scene.h"
+#include "tests/scenes/model_writers.h"
+#include "tests/scenes/temporary_folder.h"
+
+using namespace twinshade;
+using nlohmann::json;
+
+TEST_CASE("a .gltf cut within a data URI is refused with the place, without the data") {
+  TemporaryFolder folder;
+  GltfWriter writer;
+  writer.mesh(writer.square());
+  const std::string text = writer.gltf("data:application/octet-stream;base64," + std::string(100000, 'A'));
+  const std::string message =
+      user_error([&] { load_scene(folder.write("cut.gltf", text.substr(0, text.size() - 50000))); });
+  CHECK(message.find("cut.gltf: truncated or damaged JSON") != std::string::npos);
+  CHECK(message.find("line 1, column") != std::string::npos);
+  CHECK(message.find("AAAA") == std::string::npos);
+  CHECK(message.size() < 400);
+  writer.root["extensionsRequired"] = {std::string(100000, 'x')};
+  CHECK(user_error([&] { load_scene(folder.write("long.glb", writer.glb())); }).size() < 500);
+}
+
+TEST_CASE("a small file that claims millions of vertices without data is refused at once") {
+  TemporaryFolder folder;
+  GltfWriter writer;
+  json square = writer.square(false, false);
+  writer.root["accessors"].push_back({{"componentType", 5126}, {"count", 268435456}, {"type", "VEC3"}});
+  square["attributes"]["POSITION"] = writer.root["accessors"].size() - 1;
+  square.erase("indices");
+  writer.mesh(square);
+  const std::string message = user_error([&] { load_scene(folder.write("zeros.glb", writer.glb())); });
+  INFO(message);
+  CHECK(message.find("zeros.glb: damaged: accessor 2 has 268435456 elements, but no bufferView") != std::string::npos);
+}
+
+TEST_CASE("a URI with a control character in it is refused") {
+  TemporaryFolder folder;
+  GltfWriter writer;
+  writer.mesh(writer.square());
+  for (const char* uri : {"a%00.bin", "a%0Ab.bin", "a\tb.bin", "%7f.bin"}) {
+    const std::string message = user_error([&] { load_scene(folder.write("m.gltf", writer.gltf(uri))); });
+    INFO(message);
+    CHECK(message.find("m.gltf: damaged: the URI of buffer 0 has a control character") != std::string::npos);
+  }
+}
+
+TEST_CASE("a camera far from the origin keeps its direction, one scaled to nothing is refused by name") {
+  TemporaryFolder folder;
+  GltfWriter writer;
+  writer.mesh(writer.square());
+  writer.root["scenes"][0]["nodes"] = {0, 1};
+  writer.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.25}}}}};
+  const auto with = [&](const json& change) {
+    json node = {{"camera", 0}, {"rotation", {0, 0.6, 0, 0.8}}};
+    node.update(change);
+    writer.root["nodes"][1] = node;
+    return folder.write("camera.glb", writer.glb());
+  };
+  for (const double far_out : {0.0, 1e7, 1e14}) {
+    const Camera camera = load_scene(with({{"translation", {far_out, far_out / 3, 1}}})).camera;
+    const glm::dvec3 direction = glm::normalize(camera.target - camera.eye);
+    CAPTURE(far_out);
+    CHECK(glm::length(direction - glm::dvec3(-0.96, 0, -0.28)) < 1e-8);
+  }
+  CHECK(user_error([&] {
+          load_scene(with({{"scale", {0, 0, 0}}}));
+        }).find("camera.glb: the camera of node 1") != std::string::npos);
+  CHECK(user_error([&] {
+          load_scene(with({{"translation", {1e200, 0, 0}}}));
+        }).find("camera.glb: the camera of node 1 lies farther") != std::string::npos);
+}

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <set>
 
 #include "app/bench/report.h"
 #include "app/bench/scaling.h"
@@ -95,16 +96,23 @@ int BenchVerb::time_techniques(const Output& output) const {
   provenance.add(subject_ready);
 
   const std::vector<Way> ways = all_ways(cpu, attributes, host_fma);
-  std::vector<Limits> limits;
+  const std::vector<Shading> shadings = load_shadings(shading, subject_ready);
+  std::vector<std::vector<Way>> ways_of;  // each shading
+  std::set<Isa> isas;                     // that run
+  for (const Shading& shader : shadings) {
+    ways_of.push_back(distinct_ways(ways, shader.source, cpu.isa));
+    for (const Way& way : ways_of.back())
+      if (way.is_cpu()) isas.insert(*way.cpu.isa);
+  }
   output.progress("measuring the machine's limits");
-  for (const Way& way : ways)
-    if (way.is_cpu() && (limits.empty() || limits.back().isa != *way.cpu.isa))
-      limits.push_back(measure_limits(*way.cpu.isa));
+  std::vector<Limits> limits;
+  for (const Isa isa : isas) limits.push_back(measure_limits(isa));
   Report report(limits);
   std::string skipped;
   for (const auto& [technique, reason] : subject_ready.skipped)
     skipped += fmt::format("skipped {}: {}\n", technique, reason);
-  for (const Shading& shader : load_shadings(shading, subject_ready)) {
+  for (std::size_t i = 0; i < shadings.size(); ++i) {
+    const Shading& shader = shadings[i];
     Rounds turns{rounds, repeat};
     turns.progress = [&](int round) {
       output.progress(fmt::format("{}: round {} of {}", shader.label(), round + 1, rounds));
@@ -113,7 +121,7 @@ int BenchVerb::time_techniques(const Output& output) const {
     try {
       provenance.add(shader);
       report.add(shader, shader_cost(shader.source),
-                 race(ways, subject_ready.bundle, shader.source, source_for_driver(shader), turns));
+                 race(ways_of[i], subject_ready.bundle, shader.source, source_for_driver(shader), turns));
     } catch (const UserError& error) {
       if (!wants_all(shading)) throw;
       skipped += fmt::format("skipped {}: {}\n", shader.label(), error.what());

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,12 @@ struct Way {
 // The CPU, once for each instruction set that `cpu` admits and each of the attribute modes, then llvmpipe through EGL
 // with ordinary varyings, with and without filling depth first.
 std::vector<Way> all_ways(const CpuOptions& cpu, const std::vector<AttributeMode>& modes, bool host_fma);
+
+// Those of `ways` that run different code of this shader, each with the instruction set and the number type of its
+// code: of 4 lanes there may be code for the baseline alone, whatever instruction set is asked for. A way that has no
+// code at all is kept as it is; drawing says why. named: the instruction set that the user named; UserError where the
+// shader's code for the number type is another's.
+std::vector<Way> distinct_ways(const std::vector<Way>& ways, const ShaderSource& source, std::optional<Isa> named);
 
 // What drawing a way took.
 struct Timing {

@@ -76,6 +76,36 @@ TEST_CASE("bench times every instruction set in both attribute modes, its stages
   }
 }
 
+TEST_CASE("rows of a number type that one instruction set has code for are labelled by that one, once") {
+  const std::vector<std::string> quick{"--technique", "lightmap", "--attributes", "exact", "--rounds", "1",
+                                       "--repeat",    "1",        "--lanes",      "4",     "--json",   "-"};
+  for (const std::vector<std::string>& more :
+       {quick, [&] {
+          std::vector<std::string> scaling = quick;
+          scaling.erase(scaling.begin(), scaling.begin() + 4);
+          scaling.insert(scaling.end(), {"--scaling", "threads", "--threads", "1"});
+          return scaling;
+        }()}) {
+    const Run run = run_twinshade(small_quad({"bench"}, more));
+    REQUIRE_MESSAGE((run.code == 0 || !why_missing("egl").empty()), run.err);
+    std::size_t rows = 0;
+    const nlohmann::json json = run.json();
+    for (const auto& row : json["rows"])
+      if (row["renderer"] == "cpu") {
+        CHECK(row["isa"] == "baseline");
+        ++rows;
+      }
+    CHECK(rows == 1);
+    if (json.contains("limits")) CHECK(json["limits"].size() == 1);
+  }
+  const Run refused = run_twinshade(
+      small_quad({"bench"}, {"--technique", "lightmap", "--isa", "avx2", "--lanes", "4", "--rounds", "1"}));
+  CHECK(refused.code == 2);
+  CHECK(refused.err.find('\n') == refused.err.size() - 1);
+  if (refused.err.find("no avx2") == std::string::npos && refused.err.find("rules avx2 out") == std::string::npos)
+    CHECK(refused.err.find("--isa avx2: lanes4 runs on code for baseline here") != std::string::npos);
+}
+
 TEST_CASE("a shader that discards is timed without a depth prepass, and not skipped") {
   if (!why_missing("egl").empty()) {
     MESSAGE("not tested: " << why_missing("egl"));

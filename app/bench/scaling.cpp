@@ -159,7 +159,11 @@ class ScalingRun {
       shading.techniques = volume ? kVolumeTechniques : kLightmapTechniques;
       shading.light = volume ? LightSource::volume : LightSource::lightmap;
       const Subject subject = load_subject(options_.subject, shading, common_, output_);
-      for (const Shading& shader : load_shadings(shading, subject)) {
+      std::vector<Shading> shaders = load_shadings(shading, subject);
+      std::sort(shaders.begin(), shaders.end(), [](const Shading& a, const Shading& b) {  // lines run to the right
+        return find_technique(a.technique).count < find_technique(b.technique).count;
+      });
+      for (const Shading& shader : shaders) {
         const TechniqueInfo& technique = find_technique(shader.technique);
         const auto storage = volume ? CoefficientStorage::volume : CoefficientStorage::lightmap;
         measure("coefficients", technique.count, subject.bundle, technique, storage);
@@ -249,7 +253,7 @@ class ScalingRun {
     cost.subtitle = fmt::format("medians; {}, exact attributes, against llvmpipe's better way{}", isa_drawn(),
                                 with_stages ? "; and the CPU's stages" : "");
     const bool logarithmic = axis.name != "coefficients" && axis.name != "threads";
-    cost.x = {axis.title, logarithmic};
+    cost.x = {axis.title, logarithmic, {}, {}, axis.name == "threads"};
     cost.y = {per_pixel ? "nanoseconds a pixel" : "milliseconds", true};
     cost.series = series(axis.name, per_pixel ? "ns_per_pixel" : "ms", 1);
     if (with_stages)
@@ -258,6 +262,7 @@ class ScalingRun {
           cost.series.push_back(std::move(one));
     if (!cost.series.empty()) result.pictures.push_back({"scaling-" + axis.name, twinshade::draw(cost)});
 
+    if (axis.name == "coefficients") return;  // one bundle holds those of all techniques: no line would rise
     LineChart memory;
     memory.title = "Memory against " + axis.name;
     memory.subtitle = "the most that the process held in RAM while the CPU drew, bundle included";

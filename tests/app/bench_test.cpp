@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -140,6 +141,24 @@ TEST_CASE("scaling measures an axis, and names the axes there are") {
   CHECK(unknown.code == 2);
   CHECK(unknown.err.find("pixels") != std::string::npos);
   CHECK(run_twinshade({"bench", "--scaling", "all", "--technique", "unc3"}).err.find("lightmaps") != std::string::npos);
+}
+
+TEST_CASE("points against coefficients come in their order, and memory, the same for all, is not drawn against them") {
+  const Folder folder;
+  const Run run =
+      run_twinshade(small_quad({"bench"}, {"--scaling", "coefficients", "--volume", "2x2x2", "--probe-rays", "16",
+                                           "--rounds", "1", "--repeat", "1", "-o", folder / "", "--json", "-"}));
+  REQUIRE_MESSAGE(run.code == 0, run.err);
+  std::map<std::string, double> last;
+  const nlohmann::json json = run.json();
+  for (const auto& row : json["rows"]) {
+    double& before = last[row["light"].get<std::string>() + row["renderer"].get<std::string>()];
+    CHECK(row["value"].get<double>() >= before);
+    before = row["value"].get<double>();
+  }
+  CHECK(last["volumecpu"] == 36);
+  CHECK(folder.names() ==
+        std::vector<std::string>{"scaling-coefficients.png", "scaling-coefficients.svg", "scaling.csv"});
 }
 
 }  // namespace twinshade

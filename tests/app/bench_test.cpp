@@ -19,6 +19,13 @@ std::string first_line(const std::string& path) {
   return line;
 }
 
+std::string whole(const std::string& path) {
+  std::ifstream in(path);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
 }  // namespace
 
 TEST_CASE("bench times every instruction set in both attribute modes, its stages, and its share of the roofline") {
@@ -141,6 +148,27 @@ TEST_CASE("scaling measures an axis, and names the axes there are") {
   CHECK(unknown.code == 2);
   CHECK(unknown.err.find("pixels") != std::string::npos);
   CHECK(run_twinshade({"bench", "--scaling", "all", "--technique", "unc3"}).err.find("lightmaps") != std::string::npos);
+}
+
+TEST_CASE("where native attributes alone are timed, nothing is labelled as exact") {
+  const Folder folder;
+  const Run run = run_twinshade(small_quad({"bench"}, {"--technique", "lightmap", "--attributes", "native", "--rounds",
+                                                       "1", "--repeat", "1", "-o", folder / ""}));
+  REQUIRE_MESSAGE((run.code == 0 || !why_missing("egl").empty()), run.err);
+  std::istringstream lines(run.out);
+  std::string line;
+  while (std::getline(lines, line) && line.find("exact/native") == std::string::npos) {
+  }
+  REQUIRE(std::getline(lines, line));
+  std::istringstream cells(line);
+  std::vector<std::string> words;
+  for (std::string word; cells >> word;) words.push_back(word);
+  REQUIRE(words.size() > 2);
+  CHECK(words[words.size() - 2] == "-");  // before the peak memory
+  if (!why_missing("egl").empty()) return;
+  const std::string svg = whole(folder / "bench.svg");
+  CHECK(svg.find("native attributes against") != std::string::npos);
+  CHECK(svg.find("exact attributes") == std::string::npos);
 }
 
 TEST_CASE("points against coefficients come in their order, and memory, the same for all, is not drawn against them") {

@@ -78,7 +78,7 @@ int BenchVerb::time_scaling(const Output& output) const {
     options.technique = shading.techniques.front();
   }
   Provenance provenance(common);
-  options.rounds.drawn = [&](const Way& way, const Frame& frame) { provenance.add(way.renderer, frame); };
+  options.rounds.drawn = [&](const Way& way, const Frame& frame) { provenance.add(way.machine(), frame); };
   const ExperimentResult result = run_scaling(options, common, output);
   output.text(table_text(result.rows));
   for (const std::string& note : result.notes) output.note(note);
@@ -117,7 +117,7 @@ int BenchVerb::time_techniques(const Output& output) const {
     turns.progress = [&](int round) {
       output.progress(fmt::format("{}: round {} of {}", shader.label(), round + 1, rounds));
     };
-    turns.drawn = [&](const Way& way, const Frame& frame) { provenance.add(way.renderer, frame); };
+    turns.drawn = [&](const Way& way, const Frame& frame) { provenance.add(way.machine(), frame); };
     try {
       provenance.add(shader);
       report.add(shader, shader_cost(shader.source),

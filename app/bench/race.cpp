@@ -64,6 +64,10 @@ const ShaderEntry* find_code(const CpuOptions& cpu, const ShaderSource& source) 
 
 }  // namespace
 
+std::string Way::machine() const {
+  return is_cpu() ? fmt::format("cpu {} {}", isa_name(*cpu.isa), number_name(*cpu.number)) : renderer;
+}
+
 std::vector<Way> all_ways(const CpuOptions& cpu, const std::vector<AttributeMode>& modes, bool host_fma) {
   std::vector<Way> ways;
   for (const Isa isa : {Isa::baseline, Isa::avx2, Isa::avx512}) {

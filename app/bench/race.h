@@ -29,6 +29,8 @@ struct Way {
   std::shared_ptr<Machines> machines;
 
   bool is_cpu() const { return renderer == "cpu"; }
+  // Under which provenance has what the renderer says about itself, one a machine: "cpu avx2 lanes8", "egl".
+  std::string machine() const;
   std::string name() const { return depth_prepass ? renderer + ", depth first" : renderer; }
 };
 

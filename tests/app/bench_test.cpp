@@ -74,6 +74,10 @@ TEST_CASE("bench times every instruction set in both attribute modes, its stages
     CHECK(row["flops_per_pixel"].get<double>() > 28.0 * 2 + (h6 ? 21.0 * 6 : 28.0));  // of the filters
   }
   CHECK(cpu_rows == 2 * 2 * isas.size());
+  std::set<std::string> recorded;  // of each machine of ours
+  for (const auto& [machine, said] : json["provenance"]["backends"].items())
+    if (machine.rfind("cpu ", 0) == 0) recorded.insert(said["isa"].get<std::string>());
+  CHECK(recorded == isas);
   for (const auto& mean : json["summary"]) {
     CHECK(mean["techniques"] == 2);
     double product = 1;

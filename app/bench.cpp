@@ -38,6 +38,7 @@ struct BenchVerb {
   int run() const;
 
  private:
+  std::vector<std::string> files_written() const;  // into the folder
   int time_techniques(const Output& output) const;
   int time_scaling(const Output& output) const;
 };
@@ -60,9 +61,24 @@ int BenchVerb::run() const {
     throw UserError(
         fmt::format("--threads {}: timings need a processor for each, and this process may use {} processors",
                     thread_count(), processor_count()));
-  if (!folder.empty()) require_writable_folder(folder);
-  output.require_not_read(files_read(subject, shading));
+  const std::vector<std::string> read = files_read(subject, shading);
+  output.require_not_read(read);
+  if (!folder.empty()) {
+    require_writable_folder(folder);
+    for (const std::string& file : files_written()) {
+      require_writable_file(file);
+      output.require_not_read(read, file);
+    }
+  }
   return axes.empty() ? time_techniques(output) : time_scaling(output);
+}
+
+std::vector<std::string> BenchVerb::files_written() const {
+  const std::filesystem::path in(folder);
+  std::vector<std::string> files{(in / (axes.empty() ? "bench.csv" : "scaling.csv")).string()};
+  for (const std::string& picture : axes.empty() ? Report::picture_names() : scaling_pictures(axes))
+    for (const char* ending : {".svg", ".png"}) files.push_back((in / (picture + ending)).string());
+  return files;
 }
 
 int BenchVerb::time_scaling(const Output& output) const {

@@ -295,6 +295,14 @@ const std::vector<std::string>& scaling_axes() {
   return names;
 }
 
+std::vector<std::string> scaling_pictures(const std::vector<std::string>& axes) {
+  std::vector<std::string> pictures;
+  for (const std::string& axis : scaling_axes())
+    if (find_axis(axes, axis))
+      for (const char* of : {"", "-memory"}) pictures.push_back("scaling-" + axis + of);
+  return pictures;
+}
+
 ExperimentResult run_scaling(const ScalingOptions& options, const CommonOptions& common, const Output& output) {
   return ScalingRun(options, common, output).run();
 }

@@ -175,6 +175,25 @@ TEST_CASE("where native attributes alone are timed, nothing is labelled as exact
   CHECK(svg.find("exact attributes") == std::string::npos);
 }
 
+TEST_CASE("bench refuses files that it could not write, or would write twice, before it measures") {
+  const Folder folder;
+  const auto refused = [&](const std::vector<std::string>& more, const std::string& what) {
+    const Run run = run_twinshade(small_quad({"bench"}, more));
+    CAPTURE(run.err);
+    CHECK(run.code == 2);
+    CHECK(run.out.empty());
+    CHECK(run.err.find(what) != std::string::npos);
+    CHECK(run.err.find('\n') == run.err.size() - 1);
+  };
+  for (const char* name : {"bench.csv", "bench-stages.png"})
+    refused({"-o", folder / "", "--json", folder / name}, std::string(name) + ": -o writes it");
+  refused({"--scaling", "threads", "-o", folder / "", "--json", folder / "scaling-threads.svg"},
+          "scaling-threads.svg: -o writes it");
+  CHECK(folder.names().empty());
+  std::filesystem::create_directory(folder / "bench.csv");
+  refused({"-o", folder / ""}, "bench.csv");
+}
+
 TEST_CASE("points against coefficients come in their order, and memory, the same for all, is not drawn against them") {
   const Folder folder;
   const Run run =

@@ -18,13 +18,27 @@
 #include "base/processors.h"
 #include "cpu_shaders/machine.h"
 #include "lighting/driver_source.h"
+#include "scenes/model_file.h"
 
 namespace twinshade {
 namespace {
 
 using namespace bench;
 
+// What --scaling decides itself, and what only techniques other than bases have.
+constexpr const char* kNotWithScaling[] = {"--attributes",
+                                           "--light",
+                                           "--map",
+                                           "--shader",
+                                           "--map-width",
+                                           "--order",
+                                           "--pca-metric",
+                                           "--visibility-rays",
+                                           "--visibility-storage",
+                                           "--visibility-packing"};
+
 struct BenchVerb {
+  CLI::App* command = nullptr;
   CommonOptions common;
   SubjectOptions subject;
   ShadingOptions shading;
@@ -82,6 +96,17 @@ std::vector<std::string> BenchVerb::files_written() const {
 }
 
 int BenchVerb::time_scaling(const Output& output) const {
+  for (const char* option : kNotWithScaling)
+    if (command->get_option(option)->count() > 0)
+      throw UserError(
+          fmt::format("{} has no meaning with --scaling, which draws a basis with exact attributes from the "
+                      "lightmaps and volumes of its axes: leave it out",
+                      option));
+  std::error_code code;
+  if (std::filesystem::is_regular_file(subject.scene, code) && model_file_ending(subject.scene).empty())
+    throw UserError(subject.scene +
+                    ": --scaling bakes what it draws: name a built-in scene or a model (.gltf, .glb or "
+                    ".obj), not a bundle");
   ScalingOptions options;
   options.axes = axes;
   options.subject = subject;
@@ -89,8 +114,7 @@ int BenchVerb::time_scaling(const Output& output) const {
   options.host_fma = host_fma;
   options.rounds = Rounds{rounds, repeat};
   if (!wants_all(shading)) {
-    if (shading.techniques.size() != 1 || !shading.shader.empty())
-      throw UserError("--scaling draws with one technique: name one by --technique");
+    if (shading.techniques.size() != 1) throw UserError("--scaling draws with one technique: name one by --technique");
     options.technique = shading.techniques.front();
   }
   Provenance provenance(common);
@@ -160,6 +184,7 @@ int BenchVerb::time_techniques(const Output& output) const {
 Verb add_bench(CLI::App& app) {
   CLI::App* command = app.add_subcommand("bench", "what a frame costs, ours against llvmpipe's in the same run");
   const auto verb = std::make_shared<BenchVerb>();
+  verb->command = command;
   add_subject_options(*command, verb->subject);
   add_shading_options(*command, verb->shading, "all");
   add_count_option(*command, "--rounds", verb->rounds, "rounds in which every machine takes its turn");

@@ -194,6 +194,24 @@ TEST_CASE("bench refuses files that it could not write, or would write twice, be
   refused({"-o", folder / ""}, "bench.csv");
 }
 
+TEST_CASE("scaling refuses by name what has no meaning there") {
+  const Folder folder;
+  const auto refused = [&](const std::vector<std::string>& arguments, const std::string& what) {
+    const Run run = run_twinshade(arguments);
+    CAPTURE(run.err);
+    CHECK(run.code == 2);
+    CHECK(run.err.find(what) != std::string::npos);
+    CHECK(run.err.find('\n') == run.err.size() - 1);
+  };
+  for (const auto& [option, value] : {std::pair("--attributes", "native"), std::pair("--light", "volume"),
+                                      std::pair("--map", "octahedral"), std::pair("--visibility-rays", "16")})
+    refused({"bench", "quad", "--scaling", "threads", option, value},
+            std::string(option) + " has no meaning with --scaling");
+  const std::string bundle = folder / "quad.bundle";
+  REQUIRE(run_twinshade(small_quad({"bake"}, {"--technique", "lightmap", "-o", bundle})).code == 0);
+  refused({"bench", bundle, "--scaling", "threads"}, "quad.bundle: --scaling bakes what it draws");
+}
+
 TEST_CASE("points against coefficients come in their order, and memory, the same for all, is not drawn against them") {
   const Folder folder;
   const Run run =

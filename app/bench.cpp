@@ -197,9 +197,11 @@ Verb add_bench(CLI::App& app) {
       ->delimiter(',')
       ->type_name("AXIS,...");
   command
-      ->add_option("-o,--output", verb->folder, "write bench.csv, bench.svg, bench.png and the stages into this folder")
+      ->add_option("-o,--output", verb->folder,
+                   "write bench.csv, bench.svg, bench.png and the stages into this folder; with --scaling, scaling.csv "
+                   "and a chart of each axis")
       ->type_name("DIR");
-  add_cpu_options(*command, verb->cpu);
+  add_cpu_options(*command, verb->cpu, "each that there is; with --scaling the best");
   add_fma_option(*command, verb->host_fma);
   add_common_options(*command, verb->common);
   return {command, [verb] { return verb->run(); }};

@@ -41,7 +41,7 @@ void draw(Timing& timing, const Bundle& bundle, const ShaderSource& source, cons
         if (key == "isa") TWINSHADE_CHECK_EQ(value, std::string(isa_name(*way.cpu.isa)));
     timing.milliseconds.push_back(whole);
     for (std::size_t s = 0; s < kStageCount; ++s)
-      if (const double ms = milliseconds_of(frame, kStages[s]); ms >= 0) timing.stages[s].push_back(ms);
+      if (const double ms = milliseconds_of(frame, kStageNames[s]); ms >= 0) timing.stages[s].push_back(ms);
     timing.shaded_pixels =
         std::uint64_t(std::count_if(frame.depth.begin(), frame.depth.end(), [](float depth) { return depth < 1; }));
     rounds.drawn(way, frame);

@@ -14,11 +14,13 @@
 #include "app/machines.h"
 #include "app/quartiles.h"
 #include "bundle/bundle.h"
+#include "raster/tiled/stages.h"
 
 namespace twinshade::bench {
 
-inline constexpr const char* kStages[] = {"vertex", "bin", "raster", "interpolate", "shade", "store"};
-inline constexpr std::size_t kStageCount = std::size(kStages);
+using tiled::kStageCount;
+using tiled::kStageNames;
+using tiled::Stage;
 
 // One way to draw a frame.
 struct Way {
@@ -56,6 +58,7 @@ struct Timing {
 
   bool drawn() const { return !milliseconds.empty() && failure.empty(); }
   double median() const { return quartiles(milliseconds).median; }
+  double stage(Stage s) const { return stage(std::size_t(s)); }
   double stage(std::size_t s) const { return stages[s].empty() ? 0 : quartiles(stages[s]).median; }
   double ns_per_pixel() const { return shaded_pixels == 0 ? 0 : median() * 1e6 / double(shaded_pixels); }
 };

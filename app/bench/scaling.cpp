@@ -257,7 +257,7 @@ class ScalingRun {
     cost.y = {per_pixel ? "nanoseconds a pixel" : "milliseconds", true};
     cost.series = series(axis.name, per_pixel ? "ns_per_pixel" : "ms", 1);
     if (with_stages)
-      for (const char* stage : kStages)
+      for (const char* stage : kStageNames)
         for (Series& one : series(axis.name, std::string(stage) + "_ms", 1, stage))
           cost.series.push_back(std::move(one));
     if (!cost.series.empty()) result.pictures.push_back({"scaling-" + axis.name, twinshade::draw(cost)});

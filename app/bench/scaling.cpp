@@ -87,6 +87,7 @@ class ScalingRun {
 
   // Baked once: what light a surface gets does not depend on how finely it is divided.
   LightBake bake(const Scene& scene) const {
+    require_lightmap_memory(options_.subject, {{&technique_, CoefficientStorage::lightmap}});
     BakeOptions bake;
     bake.lightmap_size = options_.subject.lightmap_size;
     bake.rays = options_.subject.rays;

@@ -15,7 +15,7 @@ constexpr std::uint64_t kFramePixel = 16 + 4 + 4 + 1;
 constexpr std::uint64_t kGlPixel = kFramePixel + 24 + 24;
 
 // Bytes a triangle of a scene, its ray tree, its bundle and what the CPU keeps to draw it: 217 to 296 were measured
-// with light from lightmaps (docs/performance.md), the rest is for what vertices keep of theirs.
+// with light from lightmaps (docs/performance.md), coefficients that vertices keep are not counted.
 constexpr std::uint64_t kTriangle = 400;
 
 // Bytes a lightmap texel or a probe: the larger of what baking takes (coefficients of light, receivers or directions,

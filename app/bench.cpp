@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <set>
 
 #include "app/bench/report.h"
 #include "app/bench/scaling.h"
@@ -17,13 +18,27 @@
 #include "base/processors.h"
 #include "cpu_shaders/machine.h"
 #include "lighting/driver_source.h"
+#include "scenes/model_file.h"
 
 namespace twinshade {
 namespace {
 
 using namespace bench;
 
+// What --scaling decides itself, and what only techniques other than bases have.
+constexpr const char* kNotWithScaling[] = {"--attributes",
+                                           "--light",
+                                           "--map",
+                                           "--shader",
+                                           "--map-width",
+                                           "--order",
+                                           "--pca-metric",
+                                           "--visibility-rays",
+                                           "--visibility-storage",
+                                           "--visibility-packing"};
+
 struct BenchVerb {
+  CLI::App* command = nullptr;
   CommonOptions common;
   SubjectOptions subject;
   ShadingOptions shading;
@@ -37,6 +52,7 @@ struct BenchVerb {
   int run() const;
 
  private:
+  std::vector<std::string> files_written() const;  // into the folder
   int time_techniques(const Output& output) const;
   int time_scaling(const Output& output) const;
 };
@@ -59,12 +75,38 @@ int BenchVerb::run() const {
     throw UserError(
         fmt::format("--threads {}: timings need a processor for each, and this process may use {} processors",
                     thread_count(), processor_count()));
-  if (!folder.empty()) require_writable_folder(folder);
-  output.require_not_read(files_read(subject, shading));
+  const std::vector<std::string> read = files_read(subject, shading);
+  output.require_not_read(read);
+  if (!folder.empty()) {
+    require_writable_folder(folder);
+    for (const std::string& file : files_written()) {
+      require_writable_file(file);
+      output.require_not_read(read, file);
+    }
+  }
   return axes.empty() ? time_techniques(output) : time_scaling(output);
 }
 
+std::vector<std::string> BenchVerb::files_written() const {
+  const std::filesystem::path in(folder);
+  std::vector<std::string> files{(in / (axes.empty() ? "bench.csv" : "scaling.csv")).string()};
+  for (const std::string& picture : axes.empty() ? Report::picture_names() : scaling_pictures(axes))
+    for (const char* ending : {".svg", ".png"}) files.push_back((in / (picture + ending)).string());
+  return files;
+}
+
 int BenchVerb::time_scaling(const Output& output) const {
+  for (const char* option : kNotWithScaling)
+    if (command->get_option(option)->count() > 0)
+      throw UserError(
+          fmt::format("{} has no meaning with --scaling, which draws a basis with exact attributes from the "
+                      "lightmaps and volumes of its axes: leave it out",
+                      option));
+  std::error_code code;
+  if (std::filesystem::is_regular_file(subject.scene, code) && model_file_ending(subject.scene).empty())
+    throw UserError(subject.scene +
+                    ": --scaling bakes what it draws: name a built-in scene or a model (.gltf, .glb or "
+                    ".obj), not a bundle");
   ScalingOptions options;
   options.axes = axes;
   options.subject = subject;
@@ -72,12 +114,11 @@ int BenchVerb::time_scaling(const Output& output) const {
   options.host_fma = host_fma;
   options.rounds = Rounds{rounds, repeat};
   if (!wants_all(shading)) {
-    if (shading.techniques.size() != 1 || !shading.shader.empty())
-      throw UserError("--scaling draws with one technique: name one by --technique");
+    if (shading.techniques.size() != 1) throw UserError("--scaling draws with one technique: name one by --technique");
     options.technique = shading.techniques.front();
   }
   Provenance provenance(common);
-  options.rounds.drawn = [&](const Way& way, const Frame& frame) { provenance.add(way.renderer, frame); };
+  options.rounds.drawn = [&](const Way& way, const Frame& frame) { provenance.add(way.machine(), frame); };
   const ExperimentResult result = run_scaling(options, common, output);
   output.text(table_text(result.rows));
   for (const std::string& note : result.notes) output.note(note);
@@ -95,25 +136,32 @@ int BenchVerb::time_techniques(const Output& output) const {
   provenance.add(subject_ready);
 
   const std::vector<Way> ways = all_ways(cpu, attributes, host_fma);
-  std::vector<Limits> limits;
+  const std::vector<Shading> shadings = load_shadings(shading, subject_ready);
+  std::vector<std::vector<Way>> ways_of;  // each shading
+  std::set<Isa> isas;                     // that run
+  for (const Shading& shader : shadings) {
+    ways_of.push_back(distinct_ways(ways, shader.source, cpu.isa));
+    for (const Way& way : ways_of.back())
+      if (way.is_cpu()) isas.insert(*way.cpu.isa);
+  }
   output.progress("measuring the machine's limits");
-  for (const Way& way : ways)
-    if (way.is_cpu() && (limits.empty() || limits.back().isa != *way.cpu.isa))
-      limits.push_back(measure_limits(*way.cpu.isa));
+  std::vector<Limits> limits;
+  for (const Isa isa : isas) limits.push_back(measure_limits(isa));
   Report report(limits);
   std::string skipped;
   for (const auto& [technique, reason] : subject_ready.skipped)
     skipped += fmt::format("skipped {}: {}\n", technique, reason);
-  for (const Shading& shader : load_shadings(shading, subject_ready)) {
+  for (std::size_t i = 0; i < shadings.size(); ++i) {
+    const Shading& shader = shadings[i];
     Rounds turns{rounds, repeat};
     turns.progress = [&](int round) {
       output.progress(fmt::format("{}: round {} of {}", shader.label(), round + 1, rounds));
     };
-    turns.drawn = [&](const Way& way, const Frame& frame) { provenance.add(way.renderer, frame); };
+    turns.drawn = [&](const Way& way, const Frame& frame) { provenance.add(way.machine(), frame); };
     try {
       provenance.add(shader);
       report.add(shader, shader_cost(shader.source),
-                 race(ways, subject_ready.bundle, shader.source, source_for_driver(shader), turns));
+                 race(ways_of[i], subject_ready.bundle, shader.source, source_for_driver(shader), turns));
     } catch (const UserError& error) {
       if (!wants_all(shading)) throw;
       skipped += fmt::format("skipped {}: {}\n", shader.label(), error.what());
@@ -136,6 +184,7 @@ int BenchVerb::time_techniques(const Output& output) const {
 Verb add_bench(CLI::App& app) {
   CLI::App* command = app.add_subcommand("bench", "what a frame costs, ours against llvmpipe's in the same run");
   const auto verb = std::make_shared<BenchVerb>();
+  verb->command = command;
   add_subject_options(*command, verb->subject);
   add_shading_options(*command, verb->shading, "all");
   add_count_option(*command, "--rounds", verb->rounds, "rounds in which every machine takes its turn");
@@ -148,9 +197,11 @@ Verb add_bench(CLI::App& app) {
       ->delimiter(',')
       ->type_name("AXIS,...");
   command
-      ->add_option("-o,--output", verb->folder, "write bench.csv, bench.svg, bench.png and the stages into this folder")
+      ->add_option("-o,--output", verb->folder,
+                   "write bench.csv, bench.svg, bench.png and the stages into this folder; with --scaling, scaling.csv "
+                   "and a chart of each axis")
       ->type_name("DIR");
-  add_cpu_options(*command, verb->cpu);
+  add_cpu_options(*command, verb->cpu, "each that there is; with --scaling the best");
   add_fma_option(*command, verb->host_fma);
   add_common_options(*command, verb->common);
   return {command, [verb] { return verb->run(); }};

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/memory.h"
 
 namespace twinshade {
@@ -12,13 +14,31 @@ namespace {
 constexpr std::uint64_t kFramePixel = 16 + 4 + 4 + 1;
 constexpr std::uint64_t kGlPixel = kFramePixel + 24 + 24;
 
-// Bytes a triangle of a scene, its ray tree, its bundle and what the CPU keeps to draw it. Measured:
-// docs/performance.md.
+// Bytes a triangle of a scene, its ray tree, its bundle and what the CPU keeps to draw it: 217 to 296 were measured
+// with light from lightmaps (docs/performance.md), coefficients that vertices keep are not counted.
 constexpr std::uint64_t kTriangle = 400;
 
-// Bytes a lightmap texel while it is baked: 25 coefficients of three channels, its receiver and the rays it remembers
-// the ends of; of a texture's layer: RGBA32F.
-constexpr std::uint64_t kBakedTexel = 25 * 3 * 4 + 100, kLayerTexel = 16;
+// Bytes a lightmap texel or a probe: the larger of what baking takes (coefficients of light, receivers or directions,
+// the file for the cache) and of what drawing does, with each layer of the textures (RGBA32F in the bundle, interleaved
+// for the CPU, and in the memory shared with OpenGL's worker). Measured, and a few percent added: the most that bench
+// of quad held (VmHWM of /proc/PID/status, less 31 MiB) at --lightmap 512 and 1024 with 1 to 25 layers: 932 baked,
+// 1,504 drawn with 25; at --volume 64x64x64 with 4 and 36: 1,324 baked, 2,184 drawn with 36.
+struct LightCell {
+  std::uint64_t baked, drawn, layer;
+  std::uint64_t bytes(std::uint64_t layers) const { return std::max(baked, drawn + layer * layers); }
+};
+constexpr LightCell kTexel{960, 360, 48}, kProbe{1370, 500, 48};
+
+// Bytes a texel while its rays are gathered, counted from what is kept: coefficients, receivers and their sites; and of
+// each ray whose hit is remembered, as many as lighting/gather.cpp keeps.
+constexpr std::uint64_t kGatheredTexel = 600, kRememberedHit = 4, kRememberedHits = std::uint64_t(1) << 28;
+
+std::uint64_t layers_in(const std::vector<LitTechnique>& baked, CoefficientStorage storage) {
+  std::uint64_t layers = 0;
+  for (const LitTechnique& lit : baked)
+    if (lit.storage == storage) layers += std::uint64_t(lit.technique->count);
+  return layers;
+}
 
 }  // namespace
 
@@ -34,14 +54,24 @@ void require_scene_memory(const SubjectOptions& options) {
 }
 
 void require_lightmap_memory(const SubjectOptions& options, const std::vector<LitTechnique>& baked) {
-  std::uint64_t layers = 0;
-  for (const LitTechnique& lit : baked)
-    if (lit.storage == CoefficientStorage::lightmap) layers += std::uint64_t(lit.technique->count);
+  require_volume_memory(options, baked);
+  const std::uint64_t layers = layers_in(baked, CoefficientStorage::lightmap);
   if (layers == 0) return;
   const std::uint64_t texels = std::uint64_t(options.lightmap_size) * options.lightmap_size;
-  require_memory(texels * (kBakedTexel + kLayerTexel * layers),
+  const std::uint64_t hits = std::min(texels * options.rays, kRememberedHits);
+  require_memory(std::max(texels * kTexel.bytes(layers), texels * kGatheredTexel + hits * kRememberedHit),
                  fmt::format("a lightmap of {0}x{0} texels and {1} layers", options.lightmap_size, layers),
                  "choose a smaller --lightmap or fewer techniques");
+}
+
+void require_volume_memory(const SubjectOptions& options, const std::vector<LitTechnique>& baked) {
+  const std::uint64_t layers = layers_in(baked, CoefficientStorage::volume);
+  if (layers == 0) return;
+  const glm::ivec3& size = options.volume;
+  const std::uint64_t probes = std::uint64_t(size.x) * std::uint64_t(size.y) * std::uint64_t(size.z);
+  require_memory(probes * kProbe.bytes(layers),
+                 fmt::format("a volume of {}x{}x{} probes and {} layers", size.x, size.y, size.z, layers),
+                 "choose a smaller --volume or fewer techniques");
 }
 
 }  // namespace twinshade

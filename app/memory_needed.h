@@ -14,7 +14,9 @@ namespace twinshade {
 void require_frame_memory(std::uint32_t width, std::uint32_t height, const std::string& backend);
 // UserError where a built-in scene refined to so many triangles does not fit. Models are as large as they are.
 void require_scene_memory(const SubjectOptions& options);
-// UserError where lightmaps of `baked`, and the light that they are made from, do not fit.
+// UserError where lightmaps of `baked`, and the light that they are made from, do not fit; or volumes, as below.
 void require_lightmap_memory(const SubjectOptions& options, const std::vector<LitTechnique>& baked);
+// The same of irradiance volumes alone.
+void require_volume_memory(const SubjectOptions& options, const std::vector<LitTechnique>& baked);
 
 }  // namespace twinshade

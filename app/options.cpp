@@ -18,7 +18,9 @@
 namespace twinshade {
 namespace {
 
-constexpr const char* kNumberNames[] = {"lanes4", "lanes8", "lanes16", "scalar", "float64"};
+const char* const kNumberNames[] = {number_name(Number::lanes4), number_name(Number::lanes8),
+                                    number_name(Number::lanes16), number_name(Number::scalar),
+                                    number_name(Number::float64)};  // by the enumeration's values
 constexpr const char* kAttributeModeNames[] = {"exact", "native"};
 constexpr const char* kLightNames[] = {"auto", "lightmap", "vertex", "volume", "all"};
 constexpr const char* kTonemapNames[] = {"none", "reinhard", "aces"};
@@ -272,9 +274,9 @@ void add_fma_option(CLI::App& command, bool& host_fma) {
       "--no-host-fma", [&host_fma] { host_fma = false; }, "short for --gl-fma off");
 }
 
-void add_cpu_options(CLI::App& command, CpuOptions& options) {
+void add_cpu_options(CLI::App& command, CpuOptions& options, const std::string& isa_default) {
   add_parsed(command, "--isa", "baseline|avx2|avx512",
-             "instruction set of the CPU's shading (default: the best there is)",
+             "instruction set of the CPU's shading (default: " + isa_default + ")",
              [&](const std::string& text) { options.isa = Isa(index_of(kIsaNames, "instruction set", text)); });
   add_parsed(command, "--number", "lanes4|lanes8|lanes16|scalar|float64", "number type of the CPU's shading",
              [&](const std::string& text) { options.number = parse_number(text); });
@@ -330,8 +332,6 @@ void apply(const CommonOptions& options) {
   machine_isa();  // a wrong TWINSHADE_ISA is said before any work
 }
 
-const char* isa_name(Isa isa) { return kIsaNames[std::size_t(isa)]; }
-const char* number_name(Number number) { return kNumberNames[std::size_t(number)]; }
 const char* attribute_mode_name(AttributeMode attributes) { return kAttributeModeNames[std::size_t(attributes)]; }
 Number parse_number(const std::string& name) { return Number(index_of(kNumberNames, "number type", name)); }
 

@@ -12,6 +12,7 @@
 #include "golden/pictures.h"
 #include "lighting/visibility_bundle.h"
 #include "raster/renderer.h"
+#include "raster/tiled/entry.h"
 #include "scenes/scene.h"
 
 namespace CLI {
@@ -101,7 +102,8 @@ void add_attribute_modes_option(CLI::App& command, std::vector<AttributeMode>& m
 // --gl-fma, and --no-host-fma for short.
 void add_annotate_option(CLI::App& command, std::string& service);
 void add_fma_option(CLI::App& command, bool& host_fma);
-void add_cpu_options(CLI::App& command, CpuOptions& options);
+// isa_default: what is drawn with where --isa is not given, for the help.
+void add_cpu_options(CLI::App& command, CpuOptions& options, const std::string& isa_default = "the best there is");
 void add_count_option(CLI::App& command, const std::string& name, int& count,
                       const std::string& description);  // 1 to 1000
 // A whole number; CLI11 takes -1 for the largest.
@@ -115,8 +117,8 @@ void add_picture_options(CLI::App& command, PictureOptions& options);
 // Sets the thread count; to be called once the options are parsed.
 void apply(const CommonOptions& options);
 
-const char* isa_name(Isa isa);
-const char* number_name(Number number);
+using tiled::isa_name;
+using tiled::number_name;
 const char* attribute_mode_name(AttributeMode attributes);
 Number parse_number(const std::string& name);
 

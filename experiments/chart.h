@@ -19,6 +19,7 @@ struct Axis {
   bool logarithmic = false;
   // Without them the axis spans the data. A logarithmic axis must span positive values.
   std::optional<double> low{}, high{};
+  bool whole = false;  // of what is counted: ticks are whole numbers
 };
 
 struct Series {

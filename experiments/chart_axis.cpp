@@ -18,9 +18,9 @@ double power_of_ten(int exponent) {
 
 double log10_of(double x) { return portable::log2(x) / portable::log2(10.0); }
 
-// 1, 2 or 5 times a power of ten: about six steps over the range.
-double nice_step(double range) {
-  const double rough = range / 6;
+// 1, 2 or 5 times a power of ten, 1 at least where values are whole: about six steps over the range.
+double nice_step(double range, bool whole) {
+  const double rough = whole ? std::max(1.0, range / 6) : range / 6;
   const double decade = power_of_ten(int(std::floor(log10_of(rough))));
   for (const double factor : {1.0, 2.0, 5.0})
     if (factor * decade >= rough * 0.999) return factor * decade;
@@ -35,7 +35,7 @@ std::string decade_label(int exponent) {
 }  // namespace
 
 Scale::Scale(const Axis& axis, const std::vector<double>& values, double begin, double end)
-    : logarithmic_(axis.logarithmic), begin_(begin), end_(end) {
+    : logarithmic_(axis.logarithmic), whole_(axis.whole), begin_(begin), end_(end) {
   bool any = false;
   for (const double value : values) {
     if (!std::isfinite(value) || (logarithmic_ && value <= 0)) continue;
@@ -52,7 +52,7 @@ Scale::Scale(const Axis& axis, const std::vector<double>& values, double begin, 
   } else {
     if (low_ > 0 && low_ < 0.5 * high_) low_ = 0;
     if (low_ == high_) high_ = low_ + 1;
-    const double step = nice_step(high_ - low_);
+    const double step = nice_step(high_ - low_, whole_);
     low_ = std::floor(low_ / step + 1e-9) * step;
     high_ = std::ceil(high_ / step - 1e-9) * step;
   }
@@ -85,7 +85,7 @@ std::vector<Scale::Tick> Scale::ticks() const {
       }
     return list;
   }
-  const double step = nice_step(high_ - low_);
+  const double step = nice_step(high_ - low_, whole_);
   const int decimals = std::max(0, -int(std::floor(log10_of(step) + 1e-9)));
   for (int k = int(std::ceil(low_ / step - 1e-9)); k * step <= high_ + 1e-9 * step; ++k)
     list.push_back({k * step, fmt::format("{:.{}f}", k == 0 ? 0.0 : k * step, decimals)});

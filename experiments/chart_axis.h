@@ -26,7 +26,7 @@ class Scale {
  private:
   double place(double value) const;  // linear in pixels
 
-  bool logarithmic_;
+  bool logarithmic_, whole_;
   double low_ = 0, high_ = 1, begin_, end_;
 };
 

@@ -1,11 +1,15 @@
 #include "app/bench/race.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "cpu_shaders/load/load.h"
 #include "cpu_shaders/machine.h"
+#include "raster/tiled/entry.h"
 
 namespace twinshade::bench {
 namespace {
@@ -32,9 +36,12 @@ void draw(Timing& timing, const Bundle& bundle, const ShaderSource& source, cons
     timing.peak_memory = std::max(timing.peak_memory, peak_memory());
     const double whole = milliseconds_of(frame, "draw");
     if (whole < 0) throw BackendError("the renderer did not time its draw");
+    if (way.is_cpu())  // rows are labelled by it
+      for (const auto& [key, value] : frame.provenance)
+        if (key == "isa") TWINSHADE_CHECK_EQ(value, std::string(isa_name(*way.cpu.isa)));
     timing.milliseconds.push_back(whole);
     for (std::size_t s = 0; s < kStageCount; ++s)
-      if (const double ms = milliseconds_of(frame, kStages[s]); ms >= 0) timing.stages[s].push_back(ms);
+      if (const double ms = milliseconds_of(frame, kStageNames[s]); ms >= 0) timing.stages[s].push_back(ms);
     timing.shaded_pixels =
         std::uint64_t(std::count_if(frame.depth.begin(), frame.depth.end(), [](float depth) { return depth < 1; }));
     rounds.drawn(way, frame);
@@ -46,7 +53,20 @@ void draw(Timing& timing, const Bundle& bundle, const ShaderSource& source, cons
   }
 }
 
+// What the renderer runs for these options; null where there is nothing.
+const ShaderEntry* find_code(const CpuOptions& cpu, const ShaderSource& source) {
+  try {
+    return &tiled::choose_entry(load_module(source, *cpu.number, cpu.isa), *cpu.number, cpu.isa);
+  } catch (const UserError&) {
+    return nullptr;
+  }
+}
+
 }  // namespace
+
+std::string Way::machine() const {
+  return is_cpu() ? fmt::format("cpu {} {}", isa_name(*cpu.isa), number_name(*cpu.number)) : renderer;
+}
 
 std::vector<Way> all_ways(const CpuOptions& cpu, const std::vector<AttributeMode>& modes, bool host_fma) {
   std::vector<Way> ways;
@@ -72,6 +92,26 @@ std::vector<Way> all_ways(const CpuOptions& cpu, const std::vector<AttributeMode
     ways.push_back(std::move(way));
   }
   return ways;
+}
+
+std::vector<Way> distinct_ways(const std::vector<Way>& ways, const ShaderSource& source, std::optional<Isa> named) {
+  std::vector<Way> distinct;
+  for (Way way : ways) {
+    const ShaderEntry* entry = way.is_cpu() ? find_code(way.cpu, source) : nullptr;
+    if (entry) {
+      if (named && entry->isa != *named)
+        throw UserError(fmt::format("--isa {}: {} runs on code for {} here; name that, or another --number",
+                                    isa_name(*named), number_name(*way.cpu.number), isa_name(entry->isa)));
+      way.cpu.isa = entry->isa;
+      way.cpu.number = entry->number;
+    }
+    const auto same = [&](const Way& other) {
+      return other.is_cpu() && other.cpu.isa == way.cpu.isa && other.cpu.number == way.cpu.number &&
+             other.attributes == way.attributes;
+    };
+    if (!entry || std::none_of(distinct.begin(), distinct.end(), same)) distinct.push_back(std::move(way));
+  }
+  return distinct;
 }
 
 std::vector<Timing> race(const std::vector<Way>& ways, const Bundle& bundle, const ShaderSource& cpu,

@@ -7,17 +7,20 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/machines.h"
 #include "app/quartiles.h"
 #include "bundle/bundle.h"
+#include "raster/tiled/stages.h"
 
 namespace twinshade::bench {
 
-inline constexpr const char* kStages[] = {"vertex", "bin", "raster", "interpolate", "shade", "store"};
-inline constexpr std::size_t kStageCount = std::size(kStages);
+using tiled::kStageCount;
+using tiled::kStageNames;
+using tiled::Stage;
 
 // One way to draw a frame.
 struct Way {
@@ -28,12 +31,20 @@ struct Way {
   std::shared_ptr<Machines> machines;
 
   bool is_cpu() const { return renderer == "cpu"; }
+  // Under which provenance has what the renderer says about itself, one a machine: "cpu avx2 lanes8", "egl".
+  std::string machine() const;
   std::string name() const { return depth_prepass ? renderer + ", depth first" : renderer; }
 };
 
 // The CPU, once for each instruction set that `cpu` admits and each of the attribute modes, then llvmpipe through EGL
 // with ordinary varyings, with and without filling depth first.
 std::vector<Way> all_ways(const CpuOptions& cpu, const std::vector<AttributeMode>& modes, bool host_fma);
+
+// Those of `ways` that run different code of this shader, each with the instruction set and the number type of its
+// code: of 4 lanes there may be code for the baseline alone, whatever instruction set is asked for. A way that has no
+// code at all is kept as it is; drawing says why. named: the instruction set that the user named; UserError where the
+// shader's code for the number type is another's.
+std::vector<Way> distinct_ways(const std::vector<Way>& ways, const ShaderSource& source, std::optional<Isa> named);
 
 // What drawing a way took.
 struct Timing {
@@ -47,6 +58,7 @@ struct Timing {
 
   bool drawn() const { return !milliseconds.empty() && failure.empty(); }
   double median() const { return quartiles(milliseconds).median; }
+  double stage(Stage s) const { return stage(std::size_t(s)); }
   double stage(std::size_t s) const { return stages[s].empty() ? 0 : quartiles(stages[s]).median; }
   double ns_per_pixel() const { return shaded_pixels == 0 ? 0 : median() * 1e6 / double(shaded_pixels); }
 };

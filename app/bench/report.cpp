@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -19,6 +20,11 @@ std::string or_dash(const std::string& text) { return text.empty() ? "-" : text;
 
 std::string number_text(double value, int digits = 2) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : "-";
+}
+
+// Two decimals; three significant digits where these are less: frames of hundredths of a millisecond.
+std::string milliseconds_text(double value) {
+  return number_text(value, value > 0 && value < 1 ? std::min(6, 2 - int(std::floor(std::log10(value)))) : 2);
 }
 
 double ratio_to(const Timing* other, const Timing* timing) {
@@ -126,7 +132,8 @@ void Report::add_row(const Technique& technique, const Timing& timing) {
   const Limits* roof = way.is_cpu() ? limits(*way.cpu.isa) : nullptr;
   if (roof && timing.shaded_pixels > 0) {
     const double ns = roofline_ns(cost, *roof);
-    cells.insert(cells.end(), {Cell(ns), number_cell(ns * double(timing.shaded_pixels) / (timing.stage(4) * 1e6))});
+    cells.insert(cells.end(),
+                 {Cell(ns), number_cell(ns * double(timing.shaded_pixels) / (timing.stage(Stage::shade) * 1e6))});
   }
   cells.resize(rows_.columns().size());
   rows_.add(std::move(cells));
@@ -142,16 +149,19 @@ std::string Report::speed_table() const {
   for (const Technique& technique : techniques_) {
     const Timing *llvmpipe = technique.llvmpipe(), *best = technique.widest();
     std::vector<std::string> cells{technique.shading.technique, or_dash(technique.shading.light),
-                                   or_dash(technique.shading.map), llvmpipe ? number_text(llvmpipe->median()) : "-"};
+                                   or_dash(technique.shading.map),
+                                   llvmpipe ? milliseconds_text(llvmpipe->median()) : "-"};
     for (const Limits& of : limits_) {
       const Timing* exact = technique.cpu(of.isa, AttributeMode::exact);
       cells.push_back(number_text(ratio_to(llvmpipe, exact ? exact : technique.cpu(of.isa, AttributeMode::native))));
     }
     if (best) {
       const Quartiles ms = quartiles(best->milliseconds);
-      const double native = ratio_to(best, technique.cpu(*best->way.cpu.isa, AttributeMode::native));
+      const double native = best->way.attributes == AttributeMode::exact
+                                ? ratio_to(best, technique.cpu(*best->way.cpu.isa, AttributeMode::native))
+                                : kMissing;
       for (const double value : {ms.median, ms.q1, ms.q3, best->ns_per_pixel(), native})
-        cells.push_back(number_text(value));
+        cells.push_back(milliseconds_text(value));
       cells.push_back(number_text(double(best->peak_memory) / (1 << 20), 0));
     }
     table.row(std::move(cells));
@@ -162,7 +172,7 @@ std::string Report::speed_table() const {
 std::string Report::stage_table() const {
   Table table;
   for (const char* heading : {"technique", "light", "map"}) table.column(heading);
-  for (const char* stage : kStages) table.column(stage, Table::Align::right);
+  for (const char* stage : kStageNames) table.column(stage, Table::Align::right);
   for (const char* heading : {"flops/pixel", "bytes/pixel", "roofline ms", "reached"})
     table.column(heading, Table::Align::right);
   for (const Technique& technique : techniques_) {
@@ -170,14 +180,14 @@ std::string Report::stage_table() const {
     if (!best) continue;
     std::vector<std::string> cells{technique.shading.technique, or_dash(technique.shading.light),
                                    or_dash(technique.shading.map)};
-    for (std::size_t s = 0; s < kStageCount; ++s) cells.push_back(number_text(best->stage(s)));
+    for (std::size_t s = 0; s < kStageCount; ++s) cells.push_back(milliseconds_text(best->stage(s)));
     const std::string least = technique.cost.loops ? ">= " : "";
     cells.push_back(least + number_text(technique.cost.flops, 0));
     cells.push_back(least + number_text(technique.cost.bytes(), 0));
     if (const Limits* roof = limits(*best->way.cpu.isa)) {
       const double ms = roofline_ns(technique.cost, *roof) * double(best->shaded_pixels) * 1e-6;
-      cells.push_back(number_text(ms));
-      cells.push_back(fmt::format("{:.0f} %", 100 * ms / best->stage(4)));
+      cells.push_back(milliseconds_text(ms));
+      cells.push_back(fmt::format("{:.0f} %", 100 * ms / best->stage(Stage::shade)));
     }
     table.row(std::move(cells));
   }
@@ -233,13 +243,17 @@ Json Report::summary_json() const {
 std::vector<Picture> Report::pictures() const {
   BarChart speed;
   speed.title = "Speed against llvmpipe";
+  AttributeMode drawn = AttributeMode::exact;
+  for (const Technique& technique : techniques_)
+    if (const Timing* best = technique.widest()) drawn = best->way.attributes;
   speed.subtitle =
-      "llvmpipe's milliseconds over ours, median of paired rounds; exact attributes against its own varyings";
+      fmt::format("llvmpipe's milliseconds over ours, median of paired rounds; {} attributes against its own varyings",
+                  attribute_mode_name(drawn));
   speed.value = {"times as fast", false, 0.0};
   speed.dots = true;
   HeatMap stages;
   stages.title = "Where a frame's time goes";
-  stages.columns.assign(std::begin(kStages), std::end(kStages));
+  stages.columns.assign(std::begin(kStageNames), std::end(kStageNames));
   stages.logarithmic = true;
   for (const Limits& of : limits_) speed.bars.push_back({isa_name(of.isa), {}});
   for (const Technique& technique : techniques_) {

@@ -25,8 +25,9 @@ class Report {
   Json rows_json() const;     // a row for each way of drawing each technique
   Json summary_json() const;  // geometric means over techniques
   Json limits_json() const { return json_of(limits_); }
-  std::vector<Picture> pictures()
-      const;  // "bench": speed against llvmpipe; "bench-stages": milliseconds of the widest way
+  // "bench": speed against llvmpipe; "bench-stages": milliseconds of the widest way. Each only where there is any.
+  std::vector<Picture> pictures() const;
+  static std::vector<std::string> picture_names() { return {"bench", "bench-stages"}; }
   bool failed() const { return !failures_.empty(); }
 
  private:

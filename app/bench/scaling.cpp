@@ -87,6 +87,7 @@ class ScalingRun {
 
   // Baked once: what light a surface gets does not depend on how finely it is divided.
   LightBake bake(const Scene& scene) const {
+    require_lightmap_memory(options_.subject, {{&technique_, CoefficientStorage::lightmap}});
     BakeOptions bake;
     bake.lightmap_size = options_.subject.lightmap_size;
     bake.rays = options_.subject.rays;
@@ -159,7 +160,11 @@ class ScalingRun {
       shading.techniques = volume ? kVolumeTechniques : kLightmapTechniques;
       shading.light = volume ? LightSource::volume : LightSource::lightmap;
       const Subject subject = load_subject(options_.subject, shading, common_, output_);
-      for (const Shading& shader : load_shadings(shading, subject)) {
+      std::vector<Shading> shaders = load_shadings(shading, subject);
+      std::sort(shaders.begin(), shaders.end(), [](const Shading& a, const Shading& b) {  // lines run to the right
+        return find_technique(a.technique).count < find_technique(b.technique).count;
+      });
+      for (const Shading& shader : shaders) {
         const TechniqueInfo& technique = find_technique(shader.technique);
         const auto storage = volume ? CoefficientStorage::volume : CoefficientStorage::lightmap;
         measure("coefficients", technique.count, subject.bundle, technique, storage);
@@ -176,10 +181,12 @@ class ScalingRun {
                CoefficientStorage storage) {
     CpuOptions cpu = options_.cpu;
     if (!cpu.isa) cpu.isa = machine_isa();
-    const std::vector<Way> ways = all_ways(cpu, {AttributeMode::exact}, options_.host_fma);
+    const ShaderSource source = technique_source(technique, storage);
+    const std::vector<Way> ways =
+        distinct_ways(all_ways(cpu, {AttributeMode::exact}, options_.host_fma), source, options_.cpu.isa);
     output_.progress(fmt::format("{}: {}", axis, value > 0 ? value : double(bundle.width) * bundle.height));
-    const std::vector<Timing> timings = race(ways, bundle, technique_source(technique, storage),
-                                             driver_source(technique, storage, sphere_maps().front()), options_.rounds);
+    const std::vector<Timing> timings =
+        race(ways, bundle, source, driver_source(technique, storage, sphere_maps().front()), options_.rounds);
     const Timing* llvmpipe = faster_llvmpipe(timings);
     for (const Timing& timing : timings)
       if (!timing.failure.empty())
@@ -197,7 +204,7 @@ class ScalingRun {
                               Cell(std::int64_t(bundle.triangle_count())),
                               Cell(std::int64_t(thread_count())),
                               Cell(timing.way.name()),
-                              timing.way.is_cpu() ? Cell(std::string(isa_name(*cpu.isa))) : Cell(),
+                              timing.way.is_cpu() ? Cell(std::string(isa_name(*timing.way.cpu.isa))) : Cell(),
                               Cell(ms.median),
                               Cell(ms.q1),
                               Cell(ms.q3),
@@ -232,24 +239,31 @@ class ScalingRun {
     return list;
   }
 
+  // The instruction set that ran: of one number type it is the same everywhere.
+  std::string isa_drawn() const {
+    for (std::size_t r = 0; r < rows_.size(); ++r)
+      if (const auto* isa = std::get_if<std::string>(&rows_.at(r, "isa"))) return *isa;
+    return "cpu";
+  }
+
   void add_pictures(const Axis& axis, ExperimentResult& result) const {
     const bool per_pixel = axis.name == "pixels";
     LineChart cost;
     cost.title = "Cost against " + axis.name;
     const bool with_stages = !per_pixel && axis.name != "coefficients";
-    cost.subtitle =
-        fmt::format("medians; {}, exact attributes, against llvmpipe's better way{}",
-                    isa_name(options_.cpu.isa.value_or(machine_isa())), with_stages ? "; and the CPU's stages" : "");
+    cost.subtitle = fmt::format("medians; {}, exact attributes, against llvmpipe's better way{}", isa_drawn(),
+                                with_stages ? "; and the CPU's stages" : "");
     const bool logarithmic = axis.name != "coefficients" && axis.name != "threads";
-    cost.x = {axis.title, logarithmic};
+    cost.x = {axis.title, logarithmic, {}, {}, axis.name == "threads"};
     cost.y = {per_pixel ? "nanoseconds a pixel" : "milliseconds", true};
     cost.series = series(axis.name, per_pixel ? "ns_per_pixel" : "ms", 1);
     if (with_stages)
-      for (const char* stage : kStages)
+      for (const char* stage : kStageNames)
         for (Series& one : series(axis.name, std::string(stage) + "_ms", 1, stage))
           cost.series.push_back(std::move(one));
     if (!cost.series.empty()) result.pictures.push_back({"scaling-" + axis.name, twinshade::draw(cost)});
 
+    if (axis.name == "coefficients") return;  // one bundle holds those of all techniques: no line would rise
     LineChart memory;
     memory.title = "Memory against " + axis.name;
     memory.subtitle = "the most that the process held in RAM while the CPU drew, bundle included";
@@ -280,6 +294,14 @@ const std::vector<std::string>& scaling_axes() {
     return list;
   }();
   return names;
+}
+
+std::vector<std::string> scaling_pictures(const std::vector<std::string>& axes) {
+  std::vector<std::string> pictures;
+  for (const std::string& axis : scaling_axes())
+    if (find_axis(axes, axis))
+      for (const char* of : {"", "-memory"}) pictures.push_back("scaling-" + axis + of);
+  return pictures;
 }
 
 ExperimentResult run_scaling(const ScalingOptions& options, const CommonOptions& common, const Output& output) {

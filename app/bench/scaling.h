@@ -23,9 +23,12 @@ struct ScalingOptions {
 
 // In the order in which they are measured.
 const std::vector<std::string>& scaling_axes();
+// Names of the pictures that these axes may give, without endings. axes: names, or "all".
+std::vector<std::string> scaling_pictures(const std::vector<std::string>& axes);
 
-// A row for each machine at each point of each axis; pictures: milliseconds, or nanoseconds a pixel, and memory against
-// each axis. UserError for axes that do not exist, with the nearest ones, and for other techniques.
+// A row for each machine at each point of each axis; pictures: milliseconds, or nanoseconds a pixel, against each axis,
+// and memory against each but coefficients. UserError for axes that do not exist, with the nearest ones, and for other
+// techniques.
 ExperimentResult run_scaling(const ScalingOptions& options, const CommonOptions& common, const Output& output);
 
 }  // namespace twinshade::bench

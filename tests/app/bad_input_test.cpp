@@ -158,7 +158,7 @@ TEST_CASE("an instruction set that is unknown, or that TWINSHADE_ISA rules out, 
   CHECK(run.json()["provenance"].dump().find("\"isa\":\"baseline\"") != std::string::npos);
 }
 
-TEST_CASE("a frame, a scene or lightmaps larger than memory are refused before anything is allocated") {
+TEST_CASE("a frame, a scene, lightmaps or a volume larger than memory are refused before anything is allocated") {
   if (kShadowMemory) {
     MESSAGE("not tested: sanitizers map more addresses than any limit allows");
     return;
@@ -171,6 +171,10 @@ TEST_CASE("a frame, a scene or lightmaps larger than memory are refused before a
   check_refused({"render", "quad", "--size", "16384x16384"}, {"16384x16384", "GiB", "smaller --size"});
   check_refused({"render", "quad", "--triangles", "100000000"}, {"100000000 triangles", "GiB", "fewer --triangles"});
   check_refused({"bench", "quad", "--lightmap", "4096"}, {"4096x4096 texels", "GiB", "smaller --lightmap"});
+  check_refused({"bench", "quad", "--scaling", "threads", "--lightmap", "4096"},
+                {"4096x4096 texels", "GiB", "smaller --lightmap"});
+  check_refused({"render", "quad", "--technique", "sh6", "--light", "volume", "--volume", "256x128x128"},
+                {"256x128x128 probes", "GiB", "smaller --volume"});
   REQUIRE(setrlimit(RLIMIT_AS, &old) == 0);
 }
 

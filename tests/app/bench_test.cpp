@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -16,6 +17,13 @@ std::string first_line(const std::string& path) {
   std::string line;
   std::getline(in, line);
   return line;
+}
+
+std::string whole(const std::string& path) {
+  std::ifstream in(path);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
 }
 
 }  // namespace
@@ -67,6 +75,10 @@ TEST_CASE("bench times every instruction set in both attribute modes, its stages
     CHECK(row["flops_per_pixel"].get<double>() > 28.0 * 2 + (h6 ? 21.0 * 6 : 28.0));  // of the filters
   }
   CHECK(cpu_rows == 2 * 2 * isas.size());
+  std::set<std::string> recorded;  // of each machine of ours
+  for (const auto& [machine, said] : json["provenance"]["backends"].items())
+    if (machine.rfind("cpu ", 0) == 0) recorded.insert(said["isa"].get<std::string>());
+  CHECK(recorded == isas);
   for (const auto& mean : json["summary"]) {
     CHECK(mean["techniques"] == 2);
     double product = 1;
@@ -75,6 +87,36 @@ TEST_CASE("bench times every instruction set in both attribute modes, its stages
         product *= row["ratio_to_llvmpipe"].get<double>();
     CHECK(mean["geometric_mean_ratio_to_llvmpipe"].get<double>() == doctest::Approx(std::sqrt(product)));
   }
+}
+
+TEST_CASE("rows of a number type that one instruction set has code for are labelled by that one, once") {
+  const std::vector<std::string> quick{"--technique", "lightmap", "--attributes", "exact", "--rounds", "1",
+                                       "--repeat",    "1",        "--lanes",      "4",     "--json",   "-"};
+  for (const std::vector<std::string>& more :
+       {quick, [&] {
+          std::vector<std::string> scaling = quick;
+          scaling.erase(scaling.begin(), scaling.begin() + 4);
+          scaling.insert(scaling.end(), {"--scaling", "threads", "--threads", "1"});
+          return scaling;
+        }()}) {
+    const Run run = run_twinshade(small_quad({"bench"}, more));
+    REQUIRE_MESSAGE((run.code == 0 || !why_missing("egl").empty()), run.err);
+    std::size_t rows = 0;
+    const nlohmann::json json = run.json();
+    for (const auto& row : json["rows"])
+      if (row["renderer"] == "cpu") {
+        CHECK(row["isa"] == "baseline");
+        ++rows;
+      }
+    CHECK(rows == 1);
+    if (json.contains("limits")) CHECK(json["limits"].size() == 1);
+  }
+  const Run refused = run_twinshade(
+      small_quad({"bench"}, {"--technique", "lightmap", "--isa", "avx2", "--lanes", "4", "--rounds", "1"}));
+  CHECK(refused.code == 2);
+  CHECK(refused.err.find('\n') == refused.err.size() - 1);
+  if (refused.err.find("no avx2") == std::string::npos && refused.err.find("rules avx2 out") == std::string::npos)
+    CHECK(refused.err.find("--isa avx2: lanes4 runs on code for baseline here") != std::string::npos);
 }
 
 TEST_CASE("a shader that discards is timed without a depth prepass, and not skipped") {
@@ -111,6 +153,82 @@ TEST_CASE("scaling measures an axis, and names the axes there are") {
   CHECK(unknown.code == 2);
   CHECK(unknown.err.find("pixels") != std::string::npos);
   CHECK(run_twinshade({"bench", "--scaling", "all", "--technique", "unc3"}).err.find("lightmaps") != std::string::npos);
+}
+
+TEST_CASE("where native attributes alone are timed, nothing is labelled as exact") {
+  const Folder folder;
+  const Run run = run_twinshade(small_quad({"bench"}, {"--technique", "lightmap", "--attributes", "native", "--rounds",
+                                                       "1", "--repeat", "1", "-o", folder / ""}));
+  REQUIRE_MESSAGE((run.code == 0 || !why_missing("egl").empty()), run.err);
+  std::istringstream lines(run.out);
+  std::string line;
+  while (std::getline(lines, line) && line.find("exact/native") == std::string::npos) {
+  }
+  REQUIRE(std::getline(lines, line));
+  std::istringstream cells(line);
+  std::vector<std::string> words;
+  for (std::string word; cells >> word;) words.push_back(word);
+  REQUIRE(words.size() > 2);
+  CHECK(words[words.size() - 2] == "-");  // before the peak memory
+  if (!why_missing("egl").empty()) return;
+  const std::string svg = whole(folder / "bench.svg");
+  CHECK(svg.find("native attributes against") != std::string::npos);
+  CHECK(svg.find("exact attributes") == std::string::npos);
+}
+
+TEST_CASE("bench refuses files that it could not write, or would write twice, before it measures") {
+  const Folder folder;
+  const auto refused = [&](const std::vector<std::string>& more, const std::string& what) {
+    const Run run = run_twinshade(small_quad({"bench"}, more));
+    CAPTURE(run.err);
+    CHECK(run.code == 2);
+    CHECK(run.out.empty());
+    CHECK(run.err.find(what) != std::string::npos);
+    CHECK(run.err.find('\n') == run.err.size() - 1);
+  };
+  for (const char* name : {"bench.csv", "bench-stages.png"})
+    refused({"-o", folder / "", "--json", folder / name}, std::string(name) + ": -o writes it");
+  refused({"--scaling", "threads", "-o", folder / "", "--json", folder / "scaling-threads.svg"},
+          "scaling-threads.svg: -o writes it");
+  CHECK(folder.names().empty());
+  std::filesystem::create_directory(folder / "bench.csv");
+  refused({"-o", folder / ""}, "bench.csv");
+}
+
+TEST_CASE("scaling refuses by name what has no meaning there") {
+  const Folder folder;
+  const auto refused = [&](const std::vector<std::string>& arguments, const std::string& what) {
+    const Run run = run_twinshade(arguments);
+    CAPTURE(run.err);
+    CHECK(run.code == 2);
+    CHECK(run.err.find(what) != std::string::npos);
+    CHECK(run.err.find('\n') == run.err.size() - 1);
+  };
+  for (const auto& [option, value] : {std::pair("--attributes", "native"), std::pair("--light", "volume"),
+                                      std::pair("--map", "octahedral"), std::pair("--visibility-rays", "16")})
+    refused({"bench", "quad", "--scaling", "threads", option, value},
+            std::string(option) + " has no meaning with --scaling");
+  const std::string bundle = folder / "quad.bundle";
+  REQUIRE(run_twinshade(small_quad({"bake"}, {"--technique", "lightmap", "-o", bundle})).code == 0);
+  refused({"bench", bundle, "--scaling", "threads"}, "quad.bundle: --scaling bakes what it draws");
+}
+
+TEST_CASE("points against coefficients come in their order, and memory, the same for all, is not drawn against them") {
+  const Folder folder;
+  const Run run =
+      run_twinshade(small_quad({"bench"}, {"--scaling", "coefficients", "--volume", "2x2x2", "--probe-rays", "16",
+                                           "--rounds", "1", "--repeat", "1", "-o", folder / "", "--json", "-"}));
+  REQUIRE_MESSAGE(run.code == 0, run.err);
+  std::map<std::string, double> last;
+  const nlohmann::json json = run.json();
+  for (const auto& row : json["rows"]) {
+    double& before = last[row["light"].get<std::string>() + row["renderer"].get<std::string>()];
+    CHECK(row["value"].get<double>() >= before);
+    before = row["value"].get<double>();
+  }
+  CHECK(last["volumecpu"] == 36);
+  CHECK(folder.names() ==
+        std::vector<std::string>{"scaling-coefficients.png", "scaling-coefficients.svg", "scaling.csv"});
 }
 
 }  // namespace twinshade

@@ -57,6 +57,17 @@ TEST_CASE("a line chart leaves gaps where a value is not defined") {
   CHECK(count(svg, "<circle") == 5);
 }
 
+TEST_CASE("an axis of what is counted has whole ticks") {
+  LineChart chart;
+  chart.series.push_back({"a", {1, 2}, {3, 4}, true});
+  CHECK(draw(chart).svg().find(">1.2</text>") != std::string::npos);
+  chart.x.whole = true;
+  const std::string svg = draw(chart).svg();
+  CHECK(svg.find(">1.2</text>") == std::string::npos);
+  CHECK(svg.find(">1</text>") != std::string::npos);
+  CHECK(svg.find(">2</text>") != std::string::npos);
+}
+
 TEST_CASE("charts without anything to show are drawn all the same") {
   CHECK(!draw(LineChart{}).png().empty());
   CHECK(!draw(BarChart{}).png().empty());

@@ -8,6 +8,7 @@
 
 #include "app/bench/report.h"
 #include "app/bench/scaling.h"
+#include "app/option_rules.h"
 #include "app/output.h"
 #include "app/provenance.h"
 #include "app/rows_output.h"
@@ -69,30 +70,26 @@ ShaderSource source_for_driver(const Shading& shading) {
 
 int BenchVerb::run() const {
   apply(common);
-  const Output output(common);
+  Output output(common);
   if (cpu.isa) require_isa(*cpu.isa);
   if (thread_count() > processor_count())
     throw UserError(
         fmt::format("--threads {}: timings need a processor for each, and this process may use {} processors",
                     thread_count(), processor_count()));
-  const std::vector<std::string> read = files_read(subject, shading);
-  output.require_not_read(read);
+  if (!folder.empty()) output.claim(folder, files_written());
+  output.require_not_read(files_read(subject, shading));
   if (!folder.empty()) {
     require_writable_folder(folder);
-    for (const std::string& file : files_written()) {
-      require_writable_file(file);
-      output.require_not_read(read, file);
-    }
+    for (const std::string& name : files_written()) require_writable_file(output.claimed(name));
   }
   return axes.empty() ? time_techniques(output) : time_scaling(output);
 }
 
 std::vector<std::string> BenchVerb::files_written() const {
-  const std::filesystem::path in(folder);
-  std::vector<std::string> files{(in / (axes.empty() ? "bench.csv" : "scaling.csv")).string()};
+  std::vector<std::string> names{axes.empty() ? "bench.csv" : "scaling.csv"};
   for (const std::string& picture : axes.empty() ? Report::picture_names() : scaling_pictures(axes))
-    for (const char* ending : {".svg", ".png"}) files.push_back((in / (picture + ending)).string());
-  return files;
+    for (const std::string& name : picture_files(picture)) names.push_back(name);
+  return names;
 }
 
 int BenchVerb::time_scaling(const Output& output) const {
@@ -204,6 +201,8 @@ Verb add_bench(CLI::App& app) {
   add_cpu_options(*command, verb->cpu, "each that there is; with --scaling the best");
   add_fma_option(*command, verb->host_fma);
   add_common_options(*command, verb->common);
+  require_one_shader(*command);
+  require_second_environment(*command);
   return {command, [verb] { return verb->run(); }};
 }
 

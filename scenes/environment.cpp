@@ -106,6 +106,20 @@ Environment rotate_environment(const Environment& environment, double degrees) {
   return result;
 }
 
+Environment refine_environment(const Environment& environment, std::uint32_t height) {
+  if (environment.height == 0 || environment.height >= height) return environment;
+  const std::uint32_t times = (height + environment.height - 1) / environment.height;
+  Environment result = environment;
+  result.width *= times;
+  result.height *= times;
+  result.radiance.resize(std::size_t(result.width) * result.height);
+  for (std::uint32_t y = 0; y < result.height; ++y)
+    for (std::uint32_t x = 0; x < result.width; ++x)
+      result.radiance[std::size_t(y) * result.width + x] =
+          environment.radiance[std::size_t(y / times) * environment.width + x / times];
+  return result;
+}
+
 Environment blend_environments(const Environment& a, const Environment& b, double part) {
   if (!(part >= 0 && part <= 1)) throw UserError("blend of environments must be from 0 to 1");
   const bool same_size = a.width == b.width && a.height == b.height;

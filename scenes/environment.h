@@ -34,6 +34,10 @@ class PixelDirections {
   std::vector<glm::dvec2> longitudes_, colatitudes_;  // sine, cosine
 };
 
+// Where it has fewer rows than `height`: each pixel as several of its radiance. Pixels count as lights in the direction
+// of their centres in some integrals and are interpolated in others; large ones differ between the two.
+Environment refine_environment(const Environment& environment, std::uint32_t height);
+
 // "sky", "studio", "window", "constant", or a .hdr/.exr file. UserError: unknown name (nearest suggested), unreadable
 // or truncated file, NaN, infinite, negative radiance or one above 1e30 (naming the pixel; clamp_radiance replaces NaN
 // and negatives by 0 and what is too large by the largest value that is not).

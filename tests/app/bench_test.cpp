@@ -187,9 +187,9 @@ TEST_CASE("bench refuses files that it could not write, or would write twice, be
     CHECK(run.err.find('\n') == run.err.size() - 1);
   };
   for (const char* name : {"bench.csv", "bench-stages.png"})
-    refused({"-o", folder / "", "--json", folder / name}, std::string(name) + ": -o writes it");
+    refused({"-o", folder / "", "--json", folder / name}, std::string(name) + ": -o " + folder / "" + " writes it");
   refused({"--scaling", "threads", "-o", folder / "", "--json", folder / "scaling-threads.svg"},
-          "scaling-threads.svg: -o writes it");
+          "scaling-threads.svg: -o " + folder / "" + " writes it");
   CHECK(folder.names().empty());
   std::filesystem::create_directory(folder / "bench.csv");
   refused({"-o", folder / ""}, "bench.csv");

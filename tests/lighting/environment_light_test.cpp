@@ -26,6 +26,13 @@ TEST_CASE("a constant environment: solid angles add up to the sphere, irradiance
     CHECK(e == doctest::Approx(0.5 * pi).epsilon(1e-3));
 }
 
+TEST_CASE("a refined picture of one pixel is light from everywhere") {
+  const Environment refined = refine_environment({"one", 1, 1, {glm::vec3(0.5f)}}, 64);
+  CHECK(environment_radiance(refined, 1)[0] == doctest::Approx(0.5 * std::sqrt(4 * pi)).epsilon(1e-7));
+  const glm::dvec3 normals[] = {{0, 1, 0}, {0.6, 0, 0.8}};
+  for (const double e : environment_irradiance(refined, normals)) CHECK(e == doctest::Approx(0.5 * pi).epsilon(1e-2));
+}
+
 TEST_CASE("one bright pixel: a light from its direction, of its solid angle") {
   Environment environment = uniform_environment(0, 64);
   environment.radiance[9 * 64 + 13] = glm::vec3(1, 2, 4);

@@ -36,6 +36,17 @@ dvec3 turned(const dvec3& d, double degrees) {
 
 }  // namespace
 
+TEST_CASE("refining gives every pixel several of its radiance, and leaves what is fine enough as it is") {
+  Environment environment{"small", 3, 2, {}};
+  for (int i = 0; i < 6; ++i) environment.radiance.push_back(glm::vec3(float(i), 1, 2));
+  const Environment fine = refine_environment(environment, 5);
+  CHECK(fine.width == 9);
+  CHECK(fine.height == 6);
+  for (std::uint32_t y = 0; y < 6; ++y)
+    for (std::uint32_t x = 0; x < 9; ++x) CHECK(fine.radiance[y * 9 + x] == environment.radiance[y / 3 * 3 + x / 3]);
+  CHECK(refine_environment(fine, 6).radiance == fine.radiance);
+}
+
 TEST_CASE("lat-long follows OpenEXR: zenith in row 0, longitude pi at the left edge") {
   const Environment e{"", 8, 4, std::vector<glm::vec3>(32)};
   const PixelDirections directions(8, 4);

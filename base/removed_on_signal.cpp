@@ -23,7 +23,16 @@ struct RemovedOnSignal::Slot {
 std::atomic<RemovedOnSignal::Slot*> RemovedOnSignal::Slot::first{nullptr};
 static_assert(std::atomic<void*>::is_always_lock_free);
 
+namespace {
+std::atomic<bool> ending{false};  // a handler has begun: nobody begins or finishes a file any more
+
+[[noreturn]] void wait_for_end() {
+  for (;;) ::pause();
+}
+}  // namespace
+
 void RemovedOnSignal::remove_all(int signal) {
+  ending = true;
   for (Slot* slot = Slot::first.load(); slot; slot = slot->next)
     if (const File* file = slot->file.exchange(nullptr); file && file->owner == ::getpid())
       ::unlink(file->path.c_str());
@@ -59,11 +68,14 @@ RemovedOnSignal::Slot& RemovedOnSignal::take_slot(File* file) {
 }
 
 RemovedOnSignal::RemovedOnSignal(const std::string& path)
-    : file_(new File{::getpid(), path}), slot_((install(), take_slot(file_))) {}
+    : file_(new File{::getpid(), path}), slot_((install(), take_slot(file_))) {
+  if (ending) wait_for_end();
+}
 
 RemovedOnSignal::~RemovedOnSignal() {
   File* ours = file_;
-  if (slot_.file.compare_exchange_strong(ours, nullptr)) delete file_;
+  if (!slot_.file.compare_exchange_strong(ours, nullptr)) wait_for_end();  // removed, and the process is ending
+  delete file_;
 }
 
 }  // namespace twinshade

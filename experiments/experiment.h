@@ -65,7 +65,7 @@ struct ExperimentOptions {
   std::vector<std::string> probes{};  // environments or lat-long .hdr/.exr files; empty: the built-in environments
   int samples = 0;                    // random signals or points; 0: as many as the published figures need
   bool relative = false;              // errors relative to the signal as well
-  bool clamp_radiance = false;        // accept probes with NaN, infinite or negative radiance
+  bool clamp_radiance = false;        // accept probes with NaN, infinite, negative or too large radiance
   std::vector<int> widths = {};       // of sphere maps; empty: those of the published figure
   std::vector<int> orders = {};       // of spherical harmonics; empty: those of the published figure
   DrawFunction draw = {};             // how machines draw; for sphere-map-mse where `on` names one, visibility-figures

@@ -36,9 +36,11 @@ std::vector<std::string> chosen_probes(const ExperimentOptions& options) {
 std::vector<std::string> probe_names(const ExperimentOptions& options) {
   std::vector<std::string> names;
   for (const std::string& path : chosen_probes(options)) {
-    const std::string name = std::filesystem::path(path).stem().string();
-    const auto same = std::count(names.begin(), names.end(), name);
-    names.push_back(same > 0 ? fmt::format("{}-{}", name, same + 1) : name);
+    const std::string stem = std::filesystem::path(path).stem().string();
+    std::string name = stem;
+    for (int number = 2; std::count(names.begin(), names.end(), name) > 0; ++number)
+      name = fmt::format("{}-{}", stem, number);
+    names.push_back(name);
   }
   return names;
 }

@@ -6,12 +6,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <exception>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "base/sanitizers.h"
 #include "images/image_codec.h"
 
 namespace twinshade {
@@ -23,10 +25,13 @@ constexpr double kMostSamples = 0x1p30;  // 4 GiB as floats
 [[noreturn]] void refuse(const std::string& reason) { throw std::runtime_error(reason); }
 
 // libpng and its like write to stderr about damage, and OpenImageIO gives no way to ask them not to. Where the image is
-// refused, that says what is wrong; else what they wrote follows. For one thread at a time, as images are read.
+// refused, that says what is wrong; else what they wrote follows. For one thread at a time, as images are read. Not
+// where sanitizers report on stderr.
 class StderrOfLibraries {
  public:
-  StderrOfLibraries() : kept_(memfd_create("stderr", MFD_CLOEXEC)), own_(fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3)) {
+  StderrOfLibraries()
+      : own_(kShadowMemory ? -1 : fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3)),
+        kept_(own_ >= 0 ? memfd_create("stderr", MFD_CLOEXEC) : -1) {
     if (kept_ >= 0 && own_ >= 0) dup2(kept_, STDERR_FILENO);
   }
   ~StderrOfLibraries() {
@@ -44,11 +49,14 @@ class StderrOfLibraries {
   void pass_on() const {
     char text[4096];
     off_t at = 0;
-    for (ssize_t count; (count = pread(kept_, text, sizeof text, at)) > 0; at += count)
-      if (write(STDERR_FILENO, text, std::size_t(count)) < 0) return;
+    for (ssize_t count; (count = pread(kept_, text, sizeof text, at)) > 0;) {
+      const ssize_t written = write(STDERR_FILENO, text, std::size_t(count));
+      if (written < 0 && errno != EINTR) return;
+      at += std::max<ssize_t>(written, 0);
+    }
   }
 
-  int kept_, own_;  // the libraries' text; the stderr that there was
+  int own_, kept_;  // the stderr that there was; the libraries' text
   int exceptions_ = std::uncaught_exceptions();
 };
 

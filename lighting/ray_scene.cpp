@@ -123,7 +123,7 @@ struct RayScene::Impl {
 namespace {
 
 constexpr double kRayLift = 0x1p-16;       // of the diagonal
-constexpr double kRoundingLift = 0x1p-20;  // of a coordinate
+constexpr double kRoundingLift = 0x1p-22;  // of a coordinate
 // A diagonal this many times that of the scene's core is made by what lies far from it: a sky dome, a far hill.
 constexpr double kLargestSpread = 64;
 

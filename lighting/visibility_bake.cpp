@@ -30,7 +30,7 @@ namespace twinshade {
 namespace {
 
 // Raise when the same inputs give another bake.
-constexpr int kBakeVersion = 2;
+constexpr int kBakeVersion = 3;
 // A receiver that sees out in no more than kInsideShare of its rays may be inside something; so many closest hits
 // decide.
 constexpr std::uint32_t kInsideRays = 64;

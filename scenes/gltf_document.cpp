@@ -299,7 +299,8 @@ GltfDocument::Layout GltfDocument::layout(std::size_t accessor) const {
     result.bytes =
         fit(view(std::size_t(index)), unsigned_number(object, "byteOffset", 0), size, result.stride, result.count, "");
   } else if (result.count > kMostElementsWithoutView) {
-    fail("damaged: " + name + " has " + std::to_string(result.count) + " elements, but no bufferView");
+    fail("not supported: " + name + " has " + std::to_string(result.count) +
+         " elements without a bufferView, of which " + std::to_string(kMostElementsWithoutView) + " may be");
   }
   if (const auto sparse = object.find("sparse"); sparse != object.end()) {
     const std::uint64_t count = sparse->at("count").get<std::uint64_t>();

@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
+#include <exception>
 #include <filesystem>
 #include <map>
+#include <new>
 #include <sstream>
 
 #include "base/error.h"
@@ -72,6 +74,23 @@ class Files : public Assimp::DefaultIOSystem {
   std::vector<std::string> libraries_;
 };
 
+// Lines of old Macintoshes end in carriage returns alone.
+std::string with_line_feeds(std::string text) {
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (text[i] == '\r' && (i + 1 == text.size() || text[i + 1] != '\n')) text[i] = '\n';
+  return text;
+}
+
+// assimp keeps what it meets to itself; how lack of memory is told is the caller's.
+void rethrow_lack_of_memory(const std::exception_ptr& exception) {
+  try {
+    std::rethrow_exception(exception);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (...) {
+  }
+}
+
 class Reader {
  public:
   explicit Reader(const std::string& path) : path_(path) {}
@@ -83,8 +102,10 @@ class Reader {
     importer.SetIOHandler(new Files(path_, std::move(text), libraries_));  // which it deletes
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     const aiScene* scene = importer.ReadFile(path_, aiProcess_Triangulate | aiProcess_SortByPType);
-    if (!scene || !scene->mRootNode)
+    if (!scene || !scene->mRootNode) {
+      if (importer.GetException()) rethrow_lack_of_memory(importer.GetException());
       throw UserError(path_ + ": cannot be read: " + one_line(importer.GetErrorString()));
+    }
     model_.cos_crease = portable::cos(portable::kPi / 4);
     for (unsigned i = 0; i < scene->mNumMaterials; ++i) read_material(*scene->mMaterials[i]);
     for (unsigned i = 0; i < scene->mNumMeshes; ++i) read_mesh(*scene->mMeshes[i]);
@@ -95,16 +116,21 @@ class Reader {
   // The model's text with a line for each material library that is there: assimp takes all names of a line for one,
   // and puts another file in the place of one that is missing.
   std::string with_libraries(const std::string& content) {
-    std::istringstream lines(content);
+    std::istringstream lines(with_line_feeds(content));
     std::string text;
-    for (std::string line; std::getline(lines, line); text += '\n') {
+    for (std::string line, more; std::getline(lines, line); text += '\n') {
       const std::size_t word = line.find_first_not_of(" \t");
       if (word == std::string::npos || line.compare(word, 6, "mtllib") != 0 ||
           line.find_first_of(" \t\r", word) != word + 6) {
         text += line;
         continue;
       }
-      for (const std::string& name : library_names(trimmed(line.substr(word + 6)))) {
+      while (trimmed(line).ends_with('\\') && std::getline(lines, more)) {  // goes on in the next line
+        line.erase(line.rfind('\\'));
+        line += ' ' + more;
+      }
+      for (const std::string& name :
+           library_names(trimmed(line.substr(word + 6, line.find(" #", word) - (word + 6))))) {
         const std::string file = texture_path(path_, name);
         model_.files.push_back(file);
         std::error_code code;

@@ -160,8 +160,9 @@ std::string Report::speed_table() const {
       const double native = best->way.attributes == AttributeMode::exact
                                 ? ratio_to(best, technique.cpu(*best->way.cpu.isa, AttributeMode::native))
                                 : kMissing;
-      for (const double value : {ms.median, ms.q1, ms.q3, best->ns_per_pixel(), native})
+      for (const double value : {ms.median, ms.q1, ms.q3, best->ns_per_pixel()})
         cells.push_back(milliseconds_text(value));
+      cells.push_back(number_text(native));
       cells.push_back(number_text(double(best->peak_memory) / (1 << 20), 0));
     }
     table.row(std::move(cells));

@@ -115,8 +115,19 @@ class ScalingRun {
     }
   }
 
+  // The scene that --scaling was given.
+  Scene load() const {
+    require_scene_memory(options_.subject);
+    Scene scene = load_scene(options_.subject.scene, options_.subject.triangles);
+    output_.require_not_read(scene.files);
+    for (const std::string& note : scene.notes) output_.note(options_.subject.scene + ": " + note);
+    if (scene.lightmap_uvs.empty())
+      throw UserError(options_.subject.scene + " has no lightmap coordinates, and --scaling draws from lightmaps");
+    return scene;
+  }
+
   void pixels() {
-    const Scene scene = load_scene(options_.subject.scene, options_.subject.triangles);
+    const Scene scene = load();
     const LightBake light = bake(scene);
     for (const Size& size : kSizes) {
       SubjectOptions subject = options_.subject;
@@ -145,7 +156,7 @@ class ScalingRun {
 
   void threads() {
     const int most = thread_count();
-    const Scene scene = load_scene(options_.subject.scene, options_.subject.triangles);
+    const Scene scene = load();
     const Bundle bundle = make_bundle(scene, bake(scene), {&technique_}, frame_options(options_.subject, scene));
     for (int count = 1;; count = std::min(2 * count, most)) {
       set_thread_count(count);

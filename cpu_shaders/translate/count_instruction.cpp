@@ -1,5 +1,7 @@
 #include "cpu_shaders/translate/count_instruction.h"
 
+#include <algorithm>
+
 #include "cpu_shaders/translate/served.h"
 
 namespace twinshade::spirv {
@@ -183,7 +185,7 @@ void count_as_served(const Module& module, const FunctionInfo& info, OperationCo
   const std::int64_t taps = count.texels / colors;
   count.texels = taps * (colors / 5 * 4 + (colors % 5 == 0 ? 0 : colors % 5 == 1 ? 1 : 4));
   count.multiplications = 3 * colors * taps;
-  count.additions = 3 * colors * (taps - 1);
+  count.additions = 3 * colors * std::max<std::int64_t>(taps - 1, 0);
 }
 
 void remember(const Module& module, const Instruction& i, StoredConstants& stored) {
@@ -192,6 +194,16 @@ void remember(const Module& module, const Instruction& i, StoredConstants& store
     stored[i.operands[0]] = i.operands[1];
   else
     stored.erase(i.operands[0]);
+}
+
+void forget(const Statement& s, StoredConstants& stored) {
+  const auto stores = [&](const List& list) {
+    for_each_instruction(list, [&](const Instruction& i) {
+      if (i.op == spv::OpStore) stored.erase(i.operands[0]);
+    });
+  };
+  for (const List* list : {&s.then_list, &s.else_list, &s.body, &s.continuing}) stores(*list);
+  for (const Case& c : s.cases) stores(c.body);
 }
 
 }  // namespace twinshade::spirv

@@ -16,7 +16,9 @@ void count_instruction(const Module& module, const Instruction& i, OperationCoun
 // What a function's body was counted as becomes what the runtime does in its place, if it serves it by something else.
 void count_as_served(const Module& module, const FunctionInfo& info, OperationCount& count);
 
-// After the instruction: what variables hold.
+// After the instruction: what variables hold. After a statement with lists of its own: what it may have stored to is
+// not known.
 void remember(const Module& module, const Instruction& i, StoredConstants& stored);
+void forget(const Statement& s, StoredConstants& stored);
 
 }  // namespace twinshade::spirv

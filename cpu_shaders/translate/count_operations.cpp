@@ -40,17 +40,23 @@ class Counter {
           count_instruction(program_.module, i, count);
         remember(program_.module, i, stored);
       }
-      OperationCount dearest = list(info, s->then_list, stored);
+      // Each arm begins with what is known before all of them.
+      const auto arm_count = [&](const List& arm) {
+        StoredConstants known = stored;
+        return list(info, arm, known);
+      };
+      OperationCount dearest = arm_count(s->then_list);
       const auto compare = [&](const OperationCount& arm) {
         if (arm.total() > dearest.total()) dearest = arm;
       };
-      compare(list(info, s->else_list, stored));
-      for (const Case& c : s->cases) compare(list(info, c.body, stored));
+      compare(arm_count(s->else_list));
+      for (const Case& c : s->cases) compare(arm_count(c.body));
       add(count, dearest);
+      const auto turns = s->shape == Shape::loop ? trip_count(program_.module, info, *s, stored) : std::nullopt;
+      forget(*s, stored);
       if (s->shape != Shape::loop) continue;
-      const auto turns = trip_count(program_.module, info, *s, stored);
-      OperationCount turn = list(info, s->body, stored);
-      add(turn, list(info, s->continuing, stored));
+      OperationCount turn = arm_count(s->body);
+      add(turn, arm_count(s->continuing));
       turn.loops = turn.loops || !turns;
       add(count, turn, std::int64_t(turns.value_or(1)));
     }

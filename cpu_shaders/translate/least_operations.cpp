@@ -18,36 +18,39 @@ class LeastCounter {
   const OperationCount& function(const Instance& instance) {
     const auto found = counts_.find(&instance);
     if (found != counts_.end()) return found->second;
-    StoredConstants stored;
-    OperationCount count = list(instance, instance.info->body.list, stored);
+    OperationCount count = list(instance, instance.info->body.list, {});
     count_as_served(module_, *instance.info, count);
     return counts_[&instance] = count;
   }
 
  private:
-  // Up to the first statement from which some invocations may not go on.
-  OperationCount list(const Instance& instance, const List& statements, StoredConstants& stored) {
+  // Up to the first statement from which some invocations may not go on. `known`: constants that variables hold.
+  OperationCount list(const Instance& instance, const List& statements, StoredConstants known) {
     OperationCount count;
     for (const auto& s : statements) {
-      for (const Instruction& i : s->code) instruction(instance, i, count, stored);
+      for (const Instruction& i : s->code)
+        if (!instruction(instance, i, count, known)) return count;
+      const auto turns = s->shape == Shape::loop ? trip_count(module_, *instance.info, *s, known) : std::nullopt;
       if (s->shape == Shape::choice) {
-        const OperationCount taken = list(instance, s->then_list, stored);
-        add(count, least(taken, list(instance, s->else_list, stored)));
+        add(count, least(list(instance, s->then_list, known), list(instance, s->else_list, known)));
+        forget(*s, known);
       } else if (s->shape == Shape::cases) {
-        add(count, cases(instance, *s, stored));
+        add(count, cases(instance, *s, known));
+        forget(*s, known);
       } else if (s->shape == Shape::loop) {
-        add(count, loop(instance, *s, stored));
+        forget(*s, known);
+        add(count, loop(instance, *s, turns, known));
       }
       if (may_leave(*s)) break;
     }
     return count;
   }
 
-  OperationCount cases(const Instance& instance, const Statement& s, StoredConstants& stored) {
+  OperationCount cases(const Instance& instance, const Statement& s, const StoredConstants& known) {
     OperationCount count;
     bool first = true, any = false;
     for (const Case& c : s.cases) {
-      const OperationCount one = list(instance, c.body, stored);
+      const OperationCount one = list(instance, c.body, known);
       count = first ? one : least(count, one);
       first = false;
       any = any || c.is_default;
@@ -56,13 +59,12 @@ class LeastCounter {
   }
 
   // Of loops whose turns are not known, what precedes the first way out of them.
-  OperationCount loop(const Instance& instance, const Statement& s, StoredConstants& stored) {
-    const auto turns = trip_count(module_, *instance.info, s, stored);
+  OperationCount loop(const Instance& instance, const Statement& s, std::optional<std::uint64_t> turns,
+                      const StoredConstants& known) {
     if (turns) counted_.insert(&s);
-    OperationCount turn = list(instance, s.body, stored);
-    const OperationCount next = list(instance, s.continuing, stored);
+    OperationCount turn = list(instance, s.body, known);
+    if (turns) add(turn, list(instance, s.continuing, known));
     turn.loops = turn.loops || !turns;
-    if (turns) add(turn, next);
     OperationCount count;
     add(count, turn, std::int64_t(turns.value_or(1)));
     return count;
@@ -102,16 +104,20 @@ class LeastCounter {
     return visit(s, visit);
   }
 
-  void instruction(const Instance& instance, const Instruction& i, OperationCount& count, StoredConstants& stored) {
+  // Whether all invocations go on behind it.
+  bool instruction(const Instance& instance, const Instruction& i, OperationCount& count, StoredConstants& known) {
     if (i.op == spv::OpFunctionCall) {
-      add(count, function(*instance.callees.at(&i)));
+      const Instance& callee = *instance.callees.at(&i);
+      add(count, function(callee));
+      if (callee.info->discards) return false;
     } else if (i.op == spv::OpImageFetch || i.op == spv::OpImageSampleImplicitLod ||
                i.op == spv::OpImageSampleExplicitLod) {
       count.texels += instance.is_varying(i.operands[1]);  // the coordinates
     } else if (i.result == 0 || instance.is_varying(i.result)) {
       count_instruction(module_, i, count);
     }
-    remember(module_, i, stored);
+    remember(module_, i, known);
+    return true;
   }
 
   const Module& module_;

@@ -5,18 +5,10 @@
 #include <set>
 #include <string_view>
 
+#include "cpu_shaders/rewrite/keyword_versions.h"
+
 namespace twinshade::gl {
 namespace {
-
-struct Keyword {
-  const char* name;
-  int version, es_version;  // that made it one
-};
-
-constexpr Keyword kKeywords[] = {
-    {"sample", 400, 0},   {"patch", 400, 0},    {"subroutine", 400, 0}, {"precise", 400, 320}, {"coherent", 420, 0},
-    {"restrict", 420, 0}, {"readonly", 420, 0}, {"writeonly", 420, 0},  {"buffer", 430, 310},  {"shared", 430, 310},
-};
 
 // Those outside layout(...), where some of the words have their own meaning.
 std::vector<std::size_t> words(const std::vector<Token>& tokens) {
@@ -41,7 +33,7 @@ bool is_name(const std::vector<Token>& tokens, std::size_t at) {
 void rename_new_keywords(const ShaderSource& source, std::vector<Token>& tokens) {
   const std::vector<std::size_t> list = words(tokens);
   std::set<std::string> names;
-  for (const Keyword& word : kKeywords) {
+  for (const KeywordVersion& word : kNewKeywords) {
     const auto names_something = [&](std::size_t at) { return tokens[at].text == word.name && is_name(tokens, at); };
     if (source.version < (source.es ? word.es_version : word.version) &&
         std::any_of(list.begin(), list.end(), names_something))

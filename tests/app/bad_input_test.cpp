@@ -173,6 +173,8 @@ TEST_CASE("a frame, a scene, lightmaps or a volume larger than memory are refuse
   check_refused({"bench", "quad", "--lightmap", "4096"}, {"4096x4096 texels", "GiB", "smaller --lightmap"});
   check_refused({"bench", "quad", "--scaling", "threads", "--lightmap", "4096"},
                 {"4096x4096 texels", "GiB", "smaller --lightmap"});
+  check_refused({"bench", "quad", "--scaling", "threads", "--triangles", "100000000"},
+                {"100000000 triangles", "GiB", "fewer --triangles"});
   check_refused({"render", "quad", "--technique", "sh6", "--light", "volume", "--volume", "256x128x128"},
                 {"256x128x128 probes", "GiB", "smaller --volume"});
   REQUIRE(setrlimit(RLIMIT_AS, &old) == 0);

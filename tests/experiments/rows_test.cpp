@@ -6,9 +6,16 @@
 
 #include "base/error.h"
 #include "experiments/experiment.h"
+#include "experiments/probe_light.h"
 #include "lighting/registry.h"
 
 using namespace twinshade;
+
+TEST_CASE("probes of one file name have names of their own") {
+  ExperimentOptions options;
+  options.probes = {"p1/x.hdr", "p2/x.hdr", "x-2.exr", "p3/x.hdr"};
+  CHECK(probe_names(options) == std::vector<std::string>{"x", "x-2", "x-2-2", "x-3"});
+}
 
 TEST_CASE("CSV quotes what needs it, keeps every digit and leaves undefined cells empty") {
   Rows rows({"basis", "norm", "count"});

@@ -158,7 +158,8 @@ TEST_CASE("material libraries: several on a line, names with blanks, indented, m
                                                         "usemtl b\nf 1 3 2\nusemtl c\nf 2 3 1\n"));
   };
   for (const char* libraries :
-       {"mtllib a.mtl b.mtl\nmtllib c d.mtl\n", "  mtllib\tb.mtl  a.mtl\r\n\tmtllib .\\c d.mtl \r\n"}) {
+       {"mtllib a.mtl b.mtl\nmtllib c d.mtl\n", "  mtllib\tb.mtl  a.mtl\r\n\tmtllib .\\c d.mtl \r\n",
+        "mtllib a.mtl \\\n b.mtl # of a tool\nmtllib c d.mtl # blanks\n", "mtllib b.mtl a.mtl\rmtllib c d.mtl\r"}) {
     const Scene scene = model(libraries);
     CAPTURE(libraries);
     CHECK(!has_note(scene, "missing"));

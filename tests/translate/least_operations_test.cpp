@@ -33,6 +33,9 @@ TEST_CASE("of branches the least of each kind counts") {
 TEST_CASE("behind what some invocations leave by, nothing is sure") {
   CHECK(least("r *= a; if (b > 0.0) { result = r; return; } r += a;").total() == 3 + 1);
   CHECK(least("r *= a; if (b > 0.0) discard; r += a;").total() == 3 + 1);
+  CHECK(least("f(b); r += a;", "void f(float x) { if (x > 0.5) discard; }").additions == 0);
+  CHECK(least("g(b); r += a;", "void f(float x) { if (x > 0.5) discard; }\nvoid g(float x) { f(x * x); }").additions ==
+        0);
   // A callee's return is the callee's
   const OperationCount called =
       least("r = f(a); r += a;", "vec3 f(vec3 x) { if (b > 0.0) { x = x * 2.0; return x / b; } return x * x; }");
@@ -54,6 +57,9 @@ TEST_CASE("loops count as often as they surely run") {
   CHECK(unknown.multiplications == 3);
   CHECK(unknown.loops);
   CHECK(least("do { r += a; } while (r.x < b);").additions == 3);
+  // What a counter begins with is not known behind a branch or a loop that stores to it
+  CHECK(least("int k = 3; if (b > 0.0) k = 0; for (; k < 5; ++k) r += a;").additions == 0);
+  CHECK(least("int k = 0; while (r.x > b) { k += 4; r *= 0.5; } for (; k < 5; ++k) r += a;").additions == 0);
 }
 
 TEST_CASE("what is the same for all invocations costs none of them anything") {

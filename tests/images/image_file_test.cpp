@@ -128,13 +128,13 @@ TEST_CASE("PNGs whose chunks are whole but damaged within are refused, and libpn
       {"depth 7", header(2, 7, 0) + chunk("IDAT", stored(rows))},
       {"no width", header(0, 8, 0) + chunk("IDAT", stored(rows))},
       {"IHDR is short", chunk("IHDR", "x") + chunk("IDAT", stored(rows))}};
-  for (const auto& [what, chunks] : damaged) {
-    const std::string bytes = kPngStart + chunks + kPngEnd, file = folder.write("damaged.png", bytes);
+  for (const auto& damage : damaged) {
+    const std::string bytes = kPngStart + damage.second + kPngEnd, file = folder.write("damaged.png", bytes);
     for (bool memory : {false, true}) {
       std::string message;
       const std::string noise = written_to_stderr(
           [&] { message = user_error([&] { memory ? decode_image_memory(bytes, file) : decode_image_file(file); }); });
-      INFO(what << ": " << message << " | " << noise);
+      INFO(damage.first << ": " << message << " | " << noise);
       CHECK(message.find("damaged.png: cannot be read as an image") != std::string::npos);
       CHECK(noise.empty());
     }

@@ -96,7 +96,7 @@ struct RenderVerb {
   Frame trace(const Output& output, Subject& ready) const {
     require_frame_memory(subject.width, subject.height, "cpu");
     require_scene_memory(subject);
-    const Scene scene = load_scene(subject.scene, subject.triangles);
+    const Scene scene = load_scene(subject.scene, subject.triangles, !subject.camera);
     output.require_not_read(scene.files, file);
     for (const std::string& note : scene.notes) output.note(subject.scene + ": " + note);
     Environment environment = load_light(subject);

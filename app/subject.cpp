@@ -299,7 +299,7 @@ Subject load_subject(const SubjectOptions& options, const ShadingOptions& shadin
   } else {
     require_frame_memory(options.width, options.height, "cpu");
     require_scene_memory(options);
-    const Scene scene = load_scene(options.scene, options.triangles);
+    const Scene scene = load_scene(options.scene, options.triangles, !options.camera);
     output.require_not_read(scene.files, written);
     for (const std::string& note : scene.notes) output.note(options.scene + ": " + note);
     choose(

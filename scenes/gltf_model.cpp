@@ -36,7 +36,7 @@ struct Lookup {
 
 class Reader {
  public:
-  explicit Reader(const std::string& path) : document_(path) {}
+  Reader(const std::string& path, bool needs_camera) : document_(path), needs_camera_(needs_camera) {}
 
   Model read() {
     try {
@@ -347,29 +347,44 @@ class Reader {
   void read_camera(std::size_t node) {
     const json& camera = document_.element("cameras", document_.element("nodes", node)["camera"].get<std::size_t>());
     if (model_.camera || !camera.contains("perspective")) return;
-    const json& perspective = camera["perspective"];
-    const dmat4& world = world_[node];
+    const Camera result = placed_camera(camera["perspective"], world_[node]);
+    const std::string fault = camera_fault(result, world_[node]);
+    if (fault.empty())
+      model_.camera = result;
+    else if (needs_camera_)
+      document_.fail("the camera of node " + std::to_string(node) + " " + fault +
+                     "; repair it, or give another with --camera");
+  }
+
+  static Camera placed_camera(const json& perspective, const dmat4& world) {
     Camera result;
-    const double across = glm::length(dvec3(world[2])), upright = glm::length(dvec3(world[1]));
-    if (!(across > 0 && upright > 0 && std::isfinite(across) && std::isfinite(upright)))
-      document_.fail("the camera of node " + std::to_string(node) + " has no direction: its node is scaled to nothing");
     result.eye = dvec3(world[3]);
-    const double far_out = glm::length(result.eye);
-    if (!(far_out <= kLargestCoordinate))
-      document_.fail("the camera of node " + std::to_string(node) + " lies farther than 1e15 from the origin");
     // Far from the origin, a target one metre away would lose the direction to rounding.
-    result.target = result.eye - dvec3(world[2]) / across * std::max(1.0, far_out * 1e-6);
-    result.up = dvec3(world[1]) / upright;
+    result.target =
+        result.eye - dvec3(world[2]) / glm::length(dvec3(world[2])) * std::max(1.0, glm::length(result.eye) * 1e-6);
+    result.up = dvec3(world[1]) / glm::length(dvec3(world[1]));
     result.vertical_fov_degrees = gltf_number(perspective, "yfov", 1) * 180 / portable::kPi;
     result.near_plane = gltf_number(perspective, "znear", 0.1);
     result.far_plane = gltf_number(perspective, "zfar", result.near_plane * 10000);
-    if (!(result.vertical_fov_degrees > 0 && result.vertical_fov_degrees < 180 && result.near_plane > 0 &&
-          result.far_plane > result.near_plane))
-      document_.fail("damaged: the camera of node " + std::to_string(node) + " sees nothing");
-    model_.camera = result;
+    return result;
+  }
+
+  // Why nothing can be drawn by a camera placed so; empty: it can.
+  static std::string camera_fault(const Camera& camera, const dmat4& world) {
+    const double across = glm::length(dvec3(world[2])), upright = glm::length(dvec3(world[1]));
+    if (!(across > 0 && upright > 0 && std::isfinite(across) && std::isfinite(upright)))
+      return "has no direction: its node is scaled to nothing";
+    if (!(glm::length(camera.eye) <= kLargestCoordinate)) return "lies farther than 1e15 from the origin";
+    if (!(glm::length(glm::cross(camera.up, glm::normalize(camera.eye - camera.target))) > 1e-9))
+      return "looks along its up direction: its node is sheared flat";
+    if (!(camera.vertical_fov_degrees > 0 && camera.vertical_fov_degrees < 180 && camera.near_plane > 0 &&
+          camera.far_plane > camera.near_plane && std::isfinite(camera.far_plane)))
+      return "sees nothing: its field of view or planes are damaged";
+    return "";
   }
 
   GltfDocument document_;
+  bool needs_camera_;
   Model model_;
   std::vector<dmat4> world_;        // of each node
   std::vector<std::size_t> order_;  // nodes of the scene
@@ -380,6 +395,6 @@ class Reader {
 
 }  // namespace
 
-Model read_gltf_model(const std::string& path) { return Reader(path).read(); }
+Model read_gltf_model(const std::string& path, bool needs_camera) { return Reader(path, needs_camera).read(); }
 
 }  // namespace twinshade

@@ -259,9 +259,9 @@ std::string model_file_ending(const std::string& path) {
   return ending == ".gltf" || ending == ".glb" || ending == ".obj" ? ending : "";
 }
 
-Scene load_model_file(const std::string& path) {
+Scene load_model_file(const std::string& path, bool needs_camera) {
   try {
-    Model model = model_file_ending(path) == ".obj" ? read_obj_model(path) : read_gltf_model(path);
+    Model model = model_file_ending(path) == ".obj" ? read_obj_model(path) : read_gltf_model(path, needs_camera);
     return Assembly(path, std::move(model)).scene();
   } catch (const std::bad_alloc&) {
     throw UserError(path + ": there is not enough memory for this model and its pictures; make them smaller");

@@ -11,7 +11,7 @@ namespace twinshade {
 std::string model_file_ending(const std::string& path);
 
 // The file's triangles in world space with node transforms applied; UserError in one line for what cannot be read or
-// drawn, and for models beyond the limits of scenes/scene_limits.h.
-Scene load_model_file(const std::string& path);
+// drawn, and for models beyond the limits of scenes/scene_limits.h. needs_camera: as for load_scene.
+Scene load_model_file(const std::string& path, bool needs_camera);
 
 }  // namespace twinshade

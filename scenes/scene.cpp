@@ -28,9 +28,11 @@ void add_value(Sha256& hash, const T& value) {
 
 }  // namespace
 
-std::vector<std::string> scene_names() { return {"courtyard", "house", "spheres", "quad", "raster_torture", "raster_invalid"}; }
+std::vector<std::string> scene_names() {
+  return {"courtyard", "house", "spheres", "quad", "raster_torture", "raster_invalid"};
+}
 
-Scene load_scene(const std::string& name_or_path, std::uint32_t triangles) {
+Scene load_scene(const std::string& name_or_path, std::uint32_t triangles, bool needs_camera) {
   if (name_or_path == "courtyard") return make_courtyard(triangles);
   if (name_or_path == "house") return make_house(triangles);
   if (name_or_path == "spheres") return make_spheres(triangles);
@@ -41,7 +43,7 @@ Scene load_scene(const std::string& name_or_path, std::uint32_t triangles) {
   if (!ending.empty()) {
     if (triangles != 0)
       throw UserError(name_or_path + ": --triangles is for built-in scenes; a model is drawn as it is");
-    return load_model_file(name_or_path);
+    return load_model_file(name_or_path, needs_camera);
   }
   if (name_or_path.find_first_of("/.") != std::string::npos)
     throw UserError(name_or_path + ": not a model: the name must end in .gltf, .glb or .obj");

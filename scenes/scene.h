@@ -59,7 +59,9 @@ struct Scene {
 
 // Built-in scene by name, or a file: .gltf, .glb, .obj. UserError with the nearest names where there is none.
 // triangles: for procedural scenes, refine until at least this many (0: the scene's default).
-Scene load_scene(const std::string& name_or_path, std::uint32_t triangles = 0);
+// needs_camera: whether the scene's camera is used. Where it is not, a model whose own camera sees nothing loads
+// nevertheless, with a camera that frames it.
+Scene load_scene(const std::string& name_or_path, std::uint32_t triangles = 0, bool needs_camera = true);
 std::vector<std::string> scene_names();
 
 // SHA-256 over all that the frame or the bake depends on.

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "run_twinshade.h"
+#include "tests/scenes/model_writers.h"
 
 namespace twinshade {
 namespace {
@@ -13,9 +14,9 @@ std::string room(const Folder& folder) {
                      "f 1 2 3 4\nf 5 1 4 8\nf 2 6 7 3\nf 5 6 2 1\nf 4 3 7 8\n");
 }
 
-std::string frame(const std::string& model, const std::string& camera) {
-  const Run run = run_twinshade({"render", model, "--technique", "h4", "--size", "16x16", "--rays", "4", "--camera",
-                                 camera, "--quiet", "--json", "-"});
+std::string frame(const std::string& model, const std::string& camera, const std::string& technique = "h4") {
+  const Run run = run_twinshade({"render", model, "--technique", technique, "--size", "16x16", "--rays", "4",
+                                 "--camera", camera, "--quiet", "--json", "-"});
   REQUIRE_MESSAGE(run.code == 0, run.err);
   return run.json()["frame"];
 }
@@ -30,6 +31,23 @@ TEST_CASE("a camera in a room, close to a wall, far away or straight above sees 
     CAPTURE(camera);
     CHECK(frame(model, camera) != nothing);
   }
+}
+
+TEST_CASE("--camera draws a model whose own camera has no direction") {
+  const Folder folder;
+  GltfWriter writer;
+  writer.mesh(writer.square());
+  writer.root["scenes"][0]["nodes"] = {0, 1};
+  writer.root["nodes"][1] = {{"camera", 0}, {"scale", {0, 0, 0}}};
+  writer.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.25}}}}};
+  const std::string model = folder.file("flat.glb", writer.glb());
+  const Run refused = run_twinshade({"render", model, "-o", folder / "frame.png"});
+  CHECK(refused.code == 2);
+  CHECK(refused.err.find("flat.glb: the camera of node 1") != std::string::npos);
+  CHECK(refused.err.find("--camera") != std::string::npos);
+  const std::string seen = "0.5,0.5,3,0.5,0.5,0,40";
+  CHECK(frame(model, seen) != frame(model, "0.5,0.5,3,0.5,0.5,6,40"));
+  CHECK(frame(model, seen, "reference") != frame(model, "0.5,0.5,3,0.5,0.5,6,40", "reference"));
 }
 
 }  // namespace twinshade

@@ -1,6 +1,8 @@
 // glTF files that are wrong in ways that cost more than a refusal: floods of words, of memory, cameras of no direction.
 #include <doctest/doctest.h>
 
+#include <tuple>
+
 #include "scenes/scene.h"
 #include "tests/scenes/model_writers.h"
 #include "tests/scenes/temporary_folder.h"
@@ -72,4 +74,35 @@ TEST_CASE("a camera far from the origin keeps its direction, one scaled to nothi
   CHECK(user_error([&] {
           load_scene(with({{"translation", {1e200, 0, 0}}}));
         }).find("camera.glb: the camera of node 1 lies farther") != std::string::npos);
+}
+
+TEST_CASE("a model whose camera sees nothing loads where another camera is given, and is refused where none is") {
+  TemporaryFolder folder;
+  const auto with = [&](const json& node, const json& perspective) {
+    GltfWriter writer;
+    writer.mesh(writer.square());
+    writer.root["scenes"][0]["nodes"] = {0, 1};
+    writer.root["nodes"][1] = node;
+    writer.root["cameras"] = {{{"type", "perspective"}, {"perspective", perspective}}};
+    return folder.write("camera.glb", writer.glb());
+  };
+  const json lens = {{"yfov", 0.5}, {"znear", 0.25}};
+  const json flat = {1, 0, 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0, 0, 0, 1};  // up is backward
+  const std::string other = "; repair it, or give another with --camera";
+  for (const auto& [node, perspective, fault] :
+       {std::tuple<json, json, std::string>{{{"camera", 0}, {"scale", {0, 0, 0}}}, lens, "has no direction"},
+        {{{"camera", 0}, {"scale", {1, 1, 0}}}, lens, "has no direction"},
+        {{{"camera", 0}, {"translation", {1e200, 0, 0}}}, lens, "lies farther than 1e15"},
+        {{{"camera", 0}, {"matrix", flat}}, lens, "looks along its up direction"},
+        {{{"camera", 0}}, {{"yfov", 0}, {"znear", 0.25}}, "sees nothing"},
+        {{{"camera", 0}}, {{"yfov", 0.5}, {"znear", 2}, {"zfar", 1}}, "sees nothing"}}) {
+    const std::string file = with(node, perspective);
+    const std::string message = user_error([&] { load_scene(file); });
+    INFO(message);
+    CHECK(message.find("camera.glb: the camera of node 1 " + fault) != std::string::npos);
+    CHECK(message.ends_with(other));
+    const Scene scene = load_scene(file, 0, false);
+    CHECK(scene.triangle_count() == 2);
+    CHECK(glm::length(scene.camera.eye - scene.camera.target) > 1);  // frames the square
+  }
 }

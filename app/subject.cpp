@@ -223,6 +223,8 @@ FrameOptions frame_options(const SubjectOptions& options, const Scene& scene) {
   frame.width = options.width;
   frame.height = options.height;
   frame.camera = scene.camera;
+  if (scene.camera_frames && !options.camera)
+    frame.camera = framing_camera(bounds_of(scene.positions), double(options.width) / options.height);
   if (options.camera) {
     const auto& [eye, target, up, fov, near_plane, far_plane] = *options.camera;
     const bool is_model = !model_file_ending(options.scene).empty();

@@ -15,7 +15,7 @@ Bounds bounds_of(const std::vector<glm::vec3>& positions) {
   return bounds;
 }
 
-Camera framing_camera(const Bounds& bounds) {
+Camera framing_camera(const Bounds& bounds, double aspect) {
   const auto& [low, high] = bounds;
   const dvec3 middle = 0.5 * (low + high);
   const double radius = glm::length(high - middle);
@@ -28,7 +28,7 @@ Camera framing_camera(const Bounds& bounds) {
   for (int corner = 0; corner < 8; ++corner) {
     const dvec3 at =
         dvec3(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z) - middle;
-    const double aside = std::max(std::fabs(glm::dot(at, right)), std::fabs(glm::dot(at, up)));
+    const double aside = std::max(std::fabs(glm::dot(at, right)) / std::min(aspect, 1.0), std::fabs(glm::dot(at, up)));
     distance = std::max(distance, 1.05 * aside / slope + glm::dot(at, back));
   }
   camera.target = middle;

@@ -16,9 +16,10 @@ struct Bounds {
 // Of one position at least.
 Bounds bounds_of(const std::vector<glm::vec3>& positions);
 
-// Looks at the middle of the bounds from the front, a little right and above, as near as has all corners in a square
-// view. Bounds of no extent have no such camera.
-Camera framing_camera(const Bounds& bounds);
+// Looks at the middle of the bounds from the front, a little right and above, as near as has all corners in view.
+// aspect: width by height of the frame, above 0; one that is wider than high is framed as a square. Bounds of no extent
+// have no such camera.
+Camera framing_camera(const Bounds& bounds, double aspect);
 
 // The user's eye, target and field of view, with near and far planes between which all that the bounds hold before the
 // eye is seen, down to a hundredth of the way to the target (or of the bounds' radius, where that is less). Up is +Y.

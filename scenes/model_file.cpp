@@ -66,7 +66,8 @@ class Assembly {
     say(missing_uvs_,
         missing_uvs_ + ": no UVs; tangent frames come from the normals, images and normal maps are ignored");
     say(made_tangents_, "no tangents in the file: made by the MikkTSpace rules");
-    scene_.camera = model_.camera ? *model_.camera : framing_camera(bounds);
+    scene_.camera_frames = !model_.camera;
+    scene_.camera = model_.camera ? *model_.camera : framing_camera(bounds, 1);
     return std::move(scene_);
   }
 

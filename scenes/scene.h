@@ -41,6 +41,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Image> images;
   Camera camera;
+  bool camera_frames = false;  // made by framing_camera, for a square view, since the model has none
   bool has_uvs = true;
 
   // raster_torture and raster_invalid only: positions are given in clip space (4 floats a vertex) and replace the

@@ -1,5 +1,10 @@
 // Models from files, drawn by the program as a user would.
+#include <OpenImageIO/imageio.h>
 #include <doctest/doctest.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "run_twinshade.h"
 #include "tests/scenes/model_writers.h"
@@ -48,6 +53,29 @@ TEST_CASE("--camera draws a model whose own camera has no direction") {
   const std::string seen = "0.5,0.5,3,0.5,0.5,0,40";
   CHECK(frame(model, seen) != frame(model, "0.5,0.5,3,0.5,0.5,6,40"));
   CHECK(frame(model, seen, "reference") != frame(model, "0.5,0.5,3,0.5,0.5,6,40", "reference"));
+}
+
+TEST_CASE("a model is all in the picture in frames that are higher than wide") {
+  const Folder folder;
+  const std::string model = folder.file("strip.obj", "v -4 0 0\nv 4 0 0\nv 4 0.5 0\nv -4 0.5 0\nf 1 2 3 4\n");
+  for (const auto& [size, width] : {std::pair<const char*, int>{"24x96", 24}, {"48x60", 48}, {"48x48", 48}}) {
+    const std::string picture = folder / "strip.png";
+    const Run run = run_twinshade({"render", model, "--size", size, "--rays", "4", "--quiet", "-o", picture});
+    REQUIRE_MESSAGE(run.code == 0, run.err);
+    const auto in = OIIO::ImageInput::open(picture);
+    REQUIRE(in);
+    const int channels = in->spec().nchannels, height = in->spec().height;
+    REQUIRE(in->spec().width == width);
+    std::vector<unsigned char> texels(std::size_t(width * height * channels));
+    REQUIRE(in->read_image(0, 0, 0, channels, OIIO::TypeDesc::UINT8, texels.data()));
+    std::vector<bool> drawn(static_cast<std::size_t>(width));  // of each column; the corners are empty
+    for (int i = 0; i < width * height; ++i)
+      for (int c = 0; c < channels; ++c)
+        if (texels[std::size_t(i * channels + c)] != texels[std::size_t(c)]) drawn[std::size_t(i % width)] = true;
+    CHECK_FALSE(drawn.front());
+    CHECK_FALSE(drawn.back());
+    CHECK(std::count(drawn.begin(), drawn.end(), true) > width / 2);
+  }
 }
 
 }  // namespace twinshade

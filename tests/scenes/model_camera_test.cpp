@@ -2,6 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
+
 using namespace twinshade;
 using glm::dvec3;
 
@@ -43,4 +46,30 @@ TEST_CASE("up is +Y, and -Z for a view straight down or up") {
   CHECK(camera_at(kRoom, dvec3(0, 3, 0), dvec3(0), 40).up == dvec3(0, 0, -1));
   CHECK(camera_at(kRoom, dvec3(1, 0, 2), dvec3(1, 7, 2), 40).up == dvec3(0, 0, -1));
   CHECK(up_or_north(dvec3(0, 1, 0), dvec3(1, 2, 3), dvec3(0)) == dvec3(0, 1, 0));
+}
+
+TEST_CASE("the camera that frames a model has all its corners in view, near the edges, in frames of any shape") {
+  for (const Bounds& bounds : {kRoom, Bounds{dvec3(-9, 0, -1), dvec3(9, 1, 1)}, Bounds{dvec3(5, -8, 5), dvec3(6, 8, 6)},
+                               Bounds{dvec3(0), dvec3(1, 0, 0)}})
+    for (const double aspect : {1.0 / 300, 0.1, 1.0 / 3, 0.6, 0.999, 1.0, 1.6, 10.0}) {
+      const Camera camera = framing_camera(bounds, aspect);
+      const dvec3 forward = glm::normalize(camera.target - camera.eye);
+      const dvec3 right = glm::normalize(glm::cross(forward, camera.up)), up = glm::cross(right, forward);
+      const double slope = std::tan(0.5 * camera.vertical_fov_degrees * 3.14159265358979 / 180);
+      double widest = 0;  // of the corners, from the middle of the frame, a square's if wider: 1 at its edges
+      for (int c = 0; c < 8; ++c) {
+        const dvec3 to = dvec3(c & 1 ? bounds.high.x : bounds.low.x, c & 2 ? bounds.high.y : bounds.low.y,
+                               c & 4 ? bounds.high.z : bounds.low.z) -
+                         camera.eye;
+        const double along = glm::dot(to, forward);
+        CHECK(along > camera.near_plane);
+        CHECK(along < camera.far_plane);
+        widest = std::max({widest, std::fabs(glm::dot(to, right)) / (slope * along * std::min(aspect, 1.0)),
+                           std::fabs(glm::dot(to, up)) / (slope * along)});
+      }
+      CAPTURE(aspect);
+      CHECK(widest < 1);
+      CHECK(widest > 0.9);
+      if (aspect >= 1) CHECK(camera.eye == framing_camera(bounds, 1).eye);
+    }
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -365,7 +366,7 @@ class Reader {
     result.up = dvec3(world[1]) / glm::length(dvec3(world[1]));
     result.vertical_fov_degrees = gltf_number(perspective, "yfov", 1) * 180 / portable::kPi;
     result.near_plane = gltf_number(perspective, "znear", 0.1);
-    result.far_plane = gltf_number(perspective, "zfar", result.near_plane * 10000);
+    result.far_plane = gltf_number(perspective, "zfar", std::numeric_limits<double>::infinity());
     return result;
   }
 
@@ -378,7 +379,7 @@ class Reader {
     if (!(glm::length(glm::cross(camera.up, glm::normalize(camera.eye - camera.target))) > 1e-9))
       return "looks along its up direction: its node is sheared flat";
     if (!(camera.vertical_fov_degrees > 0 && camera.vertical_fov_degrees < 180 && camera.near_plane > 0 &&
-          camera.far_plane > camera.near_plane && std::isfinite(camera.far_plane)))
+          camera.near_plane <= kLargestCoordinate && camera.far_plane > camera.near_plane))
       return "sees nothing: its field of view or planes are damaged";
     return "";
   }

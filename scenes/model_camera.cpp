@@ -54,6 +54,12 @@ Camera camera_at(const Bounds& bounds, const dvec3& eye, const dvec3& target, do
   return camera;
 }
 
+double far_plane_behind(const Bounds& bounds, const Camera& camera) {
+  const dvec3 middle = 0.5 * (bounds.low + bounds.high);
+  return std::max(10000 * camera.near_plane,
+                  glm::length(camera.eye - middle) + 1.1 * glm::length(bounds.high - middle));
+}
+
 dvec3 up_or_north(const dvec3& up, const dvec3& eye, const dvec3& target) {
   const double aside = glm::length(glm::cross(up, glm::normalize(eye - target)));
   return aside > 1e-9 * glm::length(up) ? up : dvec3(0, 0, -1);

@@ -25,6 +25,9 @@ Camera framing_camera(const Bounds& bounds, double aspect);
 // eye is seen, down to a hundredth of the way to the target (or of the bounds' radius, where that is less). Up is +Y.
 Camera camera_at(const Bounds& bounds, const glm::dvec3& eye, const glm::dvec3& target, double vertical_fov_degrees);
 
+// Metres from the camera's eye, beyond all that the bounds hold and at least 10000 times the near plane.
+double far_plane_behind(const Bounds& bounds, const Camera& camera);
+
 // What is up for a camera that looks from eye to target: `up`, but -Z where the view is along it.
 glm::dvec3 up_or_north(const glm::dvec3& up, const glm::dvec3& eye, const glm::dvec3& target);
 

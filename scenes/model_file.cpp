@@ -68,6 +68,7 @@ class Assembly {
     say(made_tangents_, "no tangents in the file: made by the MikkTSpace rules");
     scene_.camera_frames = !model_.camera;
     scene_.camera = model_.camera ? *model_.camera : framing_camera(bounds, 1);
+    if (std::isinf(scene_.camera.far_plane)) scene_.camera.far_plane = far_plane_behind(bounds, scene_.camera);
     return std::move(scene_);
   }
 

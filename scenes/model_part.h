@@ -29,8 +29,8 @@ struct Model {
   std::vector<Image> images;
   std::vector<std::string> files;  // as Scene::files
   std::vector<std::string> notes;
-  std::optional<Camera> camera;
-  double cos_crease = 1;  // for parts without normals: the cosine of the angle up to which edges are smooth
+  std::optional<Camera> camera;  // its far plane is infinite where it sees as far as the model reaches
+  double cos_crease = 1;         // for parts without normals: the cosine of the angle up to which edges are smooth
 };
 
 // Applies a 3 x 4 affine transform (columns) to a part: normals by the inverse transpose; a mirroring one turns

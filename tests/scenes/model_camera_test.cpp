@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/scenes/model_writers.h"
+#include "tests/scenes/temporary_folder.h"
+
 using namespace twinshade;
 using glm::dvec3;
 
@@ -72,4 +75,23 @@ TEST_CASE("the camera that frames a model has all its corners in view, near the 
       CHECK(widest > 0.9);
       if (aspect >= 1) CHECK(camera.eye == framing_camera(bounds, 1).eye);
     }
+}
+
+TEST_CASE("a camera without a far plane sees all that is before it, however near its near plane is") {
+  TemporaryFolder folder;
+  GltfWriter writer;
+  writer.mesh(writer.square());
+  writer.root["nodes"] =
+      nlohmann::json::array({{{"mesh", 0}, {"scale", {30, 30, 30}}}, {{"camera", 0}, {"translation", {0, 5, 20}}}});
+  writer.root["scenes"][0]["nodes"] = {0, 1};
+  for (const double near : {1e-6, 0.001, 0.25, 50.0}) {
+    writer.root["cameras"] =
+        nlohmann::json::array({{{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", near}}}}});
+    const Scene scene = load_scene(folder.write("camera.glb", writer.glb()));
+    CAPTURE(near);
+    CHECK(scene.camera.near_plane == near);
+    CHECK(scene.camera.far_plane >= 10000 * near);
+    CHECK(scene.camera.far_plane > glm::length(dvec3(30, 30, 0) - scene.camera.eye));
+    CHECK(scene.camera.far_plane < std::max(100.0, 10001 * near));
+  }
 }

@@ -63,8 +63,16 @@ std::vector<TexelOwner> texel_owners(const Scene& scene, std::uint32_t size) {
     }
     const glm::dvec2 low = glm::min(glm::min(p[0], p[1]), p[2]), high = glm::max(glm::max(p[0], p[1]), p[2]);
     if (high.x < 0 || high.y < 0 || low.x > size || low.y > size) continue;
+    Polygon whole;
+    for (const glm::dvec2& corner : p) whole.add(corner);
     for (std::uint32_t y = clamped(low.y); y <= clamped(high.y); ++y) {
-      for (std::uint32_t x = clamped(low.x); x <= clamped(high.x); ++x) {
+      // The texels that the row's part of the triangle reaches, and one more on each side for its rounding.
+      const Polygon row = clip(clip(whole, 1, -1, y), 1, 1, y + 1.0);
+      double left = high.x, right = low.x;
+      for (int i = 0; i < row.count; ++i)
+        left = std::min(left, row.corner[i].x), right = std::max(right, row.corner[i].x);
+      left = std::max(low.x, left - 1), right = std::min(high.x, right + 1);
+      for (std::uint32_t x = clamped(left); x <= clamped(right); ++x) {
         const auto barycentric = [&](const glm::dvec2& at, double& b1, double& b2) {
           b1 = cross(at - p[0], e2) / twice_area;
           b2 = cross(e1, at - p[0]) / twice_area;
@@ -75,9 +83,7 @@ std::vector<TexelOwner> texel_owners(const Scene& scene, std::uint32_t size) {
           offer(x, y, t, 2, b1, b2);
           continue;
         }
-        Polygon polygon;
-        for (const glm::dvec2& corner : p) polygon.add(corner);
-        polygon = clip(polygon, 0, -1, x);
+        Polygon polygon = clip(whole, 0, -1, x);
         polygon = clip(polygon, 0, 1, x + 1.0);
         polygon = clip(polygon, 1, -1, y);
         polygon = clip(polygon, 1, 1, y + 1.0);

@@ -11,12 +11,14 @@
 #include <filesystem>
 #include <map>
 #include <new>
+#include <set>
 #include <sstream>
 
 #include "base/error.h"
 #include "base/file.h"
 #include "base/portable_math.h"
 #include "scenes/material_image.h"
+#include "scenes/mtl_textures.h"
 
 namespace twinshade {
 namespace {
@@ -58,8 +60,7 @@ class Files : public Assimp::DefaultIOSystem {
   Assimp::IOStream* Open(const char* file, const char*) override {
     if (file == path_) return stream(text_);
     for (std::size_t i = 0; i < libraries_.size(); ++i)
-      if (fs::path(file).filename() == library_name(i))
-        return stream(without_byte_order_mark(read_file(libraries_[i])));
+      if (fs::path(file).filename() == library_name(i)) return stream(libraries_[i]);
     return nullptr;
   }
 
@@ -71,7 +72,7 @@ class Files : public Assimp::DefaultIOSystem {
   }
 
   std::string path_, text_;
-  std::vector<std::string> libraries_;
+  std::vector<std::string> libraries_;  // their texts
 };
 
 // Lines of old Macintoshes end in carriage returns alone.
@@ -141,7 +142,10 @@ class Reader {
           continue;
         }
         text += "mtllib " + library_name(libraries_.size()) + "\n";
-        libraries_.push_back(file);
+        std::set<std::string> ignored;
+        libraries_.push_back(with_plain_textures(with_line_feeds(without_byte_order_mark(read_file(file))), ignored));
+        for (const std::string& option : ignored)
+          model_.notes.push_back("material library " + name + ": the option " + option + " of its textures is ignored");
       }
     }
     return text;
@@ -213,7 +217,7 @@ class Reader {
 
   std::string path_;
   Model model_;
-  std::vector<std::string> libraries_;  // that are there, in the text's order
+  std::vector<std::string> libraries_;  // texts of those that are there, in the model's order
   std::map<std::pair<std::string, bool>, int> images_;
 };
 

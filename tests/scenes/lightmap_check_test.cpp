@@ -6,6 +6,9 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <string>
+#include <utility>
+#include <vector>
 
 using namespace twinshade;
 using glm::dvec2;
@@ -96,6 +99,16 @@ TEST_CASE("long thin triangles side by side can hold a lightmap, and take the sa
     CHECK(map.fault() == "");
     map.add({glm::vec2(0.2f, 0.3f), glm::vec2(0.6f, 0.3f), glm::vec2(0.2f, 0.6f)});
     CHECK(map.fault() == (count == 500 ? "charts overlap" : ""));
+  }
+}
+
+TEST_CASE("a triangle hardly wider than what belongs to none takes the samples in its middle") {
+  for (const auto& [height, taken] : {std::pair{0.03, true}, {0.019, false}}) {
+    Map map;
+    map.add({glm::vec2(0, (100.5 - height / 2) / kGrid), glm::vec2(1, (100.5 - height / 2) / kGrid),
+             glm::vec2(0, (100.5 + height / 2) / kGrid)});
+    map.add(around(dvec2(0.5, 100.5)));
+    CHECK(map.fault() == (taken ? "charts overlap" : ""));
   }
 }
 

@@ -143,10 +143,13 @@ class Probe : public Listener {
 
   void statement_end(std::size_t first, std::size_t last) override {
     if (!returned_.text.empty()) {
-      if (const std::string told = tell(first, last, {returned_}); !told.empty())
-        edits_.collapse(first, last,
-                        "{ " + result_type_ + returned_.text + " = " + returned_value_ + ";" + told + " return " +
-                            returned_.text + "; }");
+      // Through a function that stands outside, where nothing hides the type.
+      const std::string name = kThrough + ("_" + std::to_string(statements_.size()));
+      if (const std::string told = tell(first, last, {returned_}); !told.empty()) {
+        edits_.before(header_first_, result_type_ + name + "(" + result_type_ + returned_.text + ") {" + told +
+                                         " return " + returned_.text + "; } ");
+        edits_.collapse(first, last, "return " + name + "(" + returned_value_ + ");");
+      }
       returned_.text.clear();
     }
     if (stored_.empty()) return;
@@ -154,8 +157,10 @@ class Probe : public Listener {
     targets.swap(stored_);
     const std::string after = tell(first, last, targets);
     if (after.empty()) return;
-    // A call within a declaration may come first; what is declared must outlive the statement all the same.
-    if (std::any_of(targets.begin(), targets.end(), [](const Target& target) { return target.declared; })) {
+    // A call within a declaration may come first; what is declared must outlive the statement all the same, unless it
+    // is all that an if, an else or a loop does.
+    const bool alone = one_of(list_.tokens[first - 1].text, {")", "else", "do"});
+    if (!alone && std::any_of(targets.begin(), targets.end(), [](const Target& target) { return target.declared; })) {
       edits_.behind(last - 1, after);
     } else {
       edits_.before(first, "{ ");

@@ -199,6 +199,47 @@ TEST_CASE("returned arrays are told") {
   CHECK(names(shader, 3, "result of f"));
 }
 
+TEST_CASE("a result is told whatever hides its type within the function") {
+  const ShaderSource source =
+      resolve_shader("hidden",
+                     "in vec2 a; out vec4 color;\n"
+                     "struct S { vec2 v; };\n"
+                     "S twice(S s) { return S(s.v * 2.0); }\n"
+                     "S hides(S s) { struct S { float x; }; S t = S(a.x); s.v += t.x; return twice(s); }\n"
+                     "S both(S s) { float S = a.y; s.v *= S; return twice(s); }\n"
+                     "void main() { color = vec4(hides(S(a)).v, both(S(a)).v); }\n",
+                     "hidden.frag");
+  const ProbedShader shader = add_probes(source);
+  CHECK_NOTHROW(compile_glsl(shader.source));
+  CHECK(names(shader, 3, "result of twice"));
+  CHECK(names(shader, 4, "result of hides"));
+  CHECK(names(shader, 5, "result of both"));
+}
+
+TEST_CASE("a declaration that is all that an if, an else or a loop does is told where it is known") {
+  const ShaderSource source = resolve_shader("alone",
+                                             "in float a; out vec4 color;\n"
+                                             "float f(out float x) { x = a * 2.0; return x; }\n"
+                                             "void main() {\n"
+                                             "  float x = a, y = a;\n"
+                                             "  if (x > 0.0) float b = f(x);\n"
+                                             "  else float c = x * 3.0, d = f(y);\n"
+                                             "  for (int i = 0; i < 2; ++i) const float e = x * a;\n"
+                                             "  int k = 0;\n"
+                                             "  while (++k < 3) float g = f(y);\n"
+                                             "  color = vec4(x, y, a, 1.0);\n"
+                                             "}\n",
+                                             "alone.frag");
+  const ProbedShader shader = add_probes(source);
+  CHECK_NOTHROW(compile_glsl(shader.source));
+  for (std::size_t k = 0; k < shader.statements.size(); ++k)
+    CHECK_NOTHROW(compile_glsl(add_probes(source, std::set<std::size_t>{k}).source));
+  CHECK(names(shader, 5, "x, b"));
+  CHECK(names(shader, 6, "c, y, d"));
+  CHECK(names(shader, 7, "e"));
+  CHECK(names(shader, 9, "y, g"));
+}
+
 TEST_CASE("of a structure that hides another its own members are told") {
   const ShaderSource source = resolve_shader("t",
                                              "in float a; out float c; struct T { float x; };\n"

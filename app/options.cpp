@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -14,6 +15,7 @@
 #include "base/parallel.h"
 #include "cpu_shaders/machine.h"
 #include "cpu_shaders/shader_source.h"
+#include "scenes/scene_limits.h"
 
 namespace twinshade {
 namespace {
@@ -104,6 +106,8 @@ Camera parse_camera(const std::string& text) {
   camera.eye = {v[0], v[1], v[2]};
   camera.target = {v[3], v[4], v[5]};
   camera.vertical_fov_degrees = v[6];
+  if (std::any_of(v.begin(), v.begin() + 6, [](double x) { return std::fabs(x) > kLargestCoordinate; }))
+    throw UserError("--camera " + text + ": lies farther than 1e15 from the origin; give smaller coordinates");
   if (camera.eye == camera.target) throw UserError("--camera " + text + ": eye and target are the same point");
   if (!(v[6] > 0 && v[6] < 180))
     throw UserError("--camera " + text + ": field of view must be between 0 and 180 degrees");

@@ -118,7 +118,7 @@ class ScalingRun {
   // The scene that --scaling was given.
   Scene load() const {
     require_scene_memory(options_.subject);
-    Scene scene = load_scene(options_.subject.scene, options_.subject.triangles);
+    Scene scene = load_scene(options_.subject.scene, options_.subject.triangles, !options_.subject.camera);
     output_.require_not_read(scene.files);
     for (const std::string& note : scene.notes) output_.note(options_.subject.scene + ": " + note);
     if (scene.lightmap_uvs.empty())

@@ -114,6 +114,8 @@ TEST_CASE("malformed options are refused") {
   check_refused({"render", "quad", "--env-rotation", "east"}, {"--env-rotation"});
   check_refused({"render", "quad", "--camera", "1,2,3"}, {"--camera", "seven numbers"});
   check_refused({"render", "quad", "--camera", "0,0,0,0,0,0,50"}, {"--camera", "same point"});
+  check_refused({"render", "quad", "--camera", "1e200,0,0,0,0,0,50"}, {"--camera 1e200", "1e15"});
+  check_refused({"render", "quad", "--camera", "0,0,0,0,-2e15,0,50"}, {"--camera", "1e15"});
   check_refused({"render", "quad", "--camera", "0,0,5,0,0,0,180"}, {"--camera", "field of view"});
   check_refused({"render", "quad", "--attributes", "rough"}, {"rough", "exact, native"});
   check_refused({"render", "quad", "--technique", "all"}, {"--technique"});

@@ -225,6 +225,7 @@ class ScalingRun {
       cells.push_back(timing.way.is_cpu() ? Cell(std::int64_t(timing.peak_memory)) : Cell());
       rows_.add(std::move(cells));
     }
+    if (rows_.size() > 0) options_.measured(rows_, notes_);
   }
 
   // Of one axis, `column` against its values: a line for each machine, and where light is read from on the axis of

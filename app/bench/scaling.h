@@ -2,6 +2,7 @@
 // shader reads.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct ScalingOptions {
   CpuOptions cpu;
   bool host_fma = true;
   Rounds rounds;
+  // Called after each point with all that was measured so far, a row at least.
+  std::function<void(const Rows&, const std::vector<std::string>& notes)> measured =
+      [](const Rows&, const std::vector<std::string>&) {};
 };
 
 // In the order in which they are measured.

@@ -1,7 +1,9 @@
 // What bench says hangs together, whatever this machine's speed.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <fstream>
 #include <map>
 #include <set>
@@ -24,6 +26,25 @@ std::string whole(const std::string& path) {
   std::ostringstream text;
   text << in.rdbuf();
   return text.str();
+}
+
+// Rows of a CSV file that is whole: its lines are ended and have as many cells as its first.
+std::size_t rows_of_whole(const std::string& csv) {
+  REQUIRE(!csv.empty());
+  CHECK(csv.back() == '\n');
+  std::istringstream lines(csv);
+  std::size_t rows = 0;
+  std::ptrdiff_t commas = 0;
+  for (std::string line; std::getline(lines, line); ++rows) {
+    bool quoted = false;
+    const std::ptrdiff_t count = std::count_if(line.begin(), line.end(), [&](char c) {
+      quoted = quoted != (c == '"');
+      return c == ',' && !quoted;
+    });
+    if (rows == 0) commas = count;
+    CHECK(count == commas);
+  }
+  return rows - 1;
 }
 
 }  // namespace
@@ -229,6 +250,63 @@ TEST_CASE("points against coefficients come in their order, and memory, the same
   CHECK(last["volumecpu"] == 36);
   CHECK(folder.names() ==
         std::vector<std::string>{"scaling-coefficients.png", "scaling-coefficients.svg", "scaling.csv"});
+}
+
+TEST_CASE("a bench that is stopped leaves the rows that it had measured, in whole files") {
+  const std::vector<std::string> quick{"--rounds", "1", "--repeat", "1", "--isa", "baseline"};
+  for (const auto& [csv_name, more] :
+       {std::pair("bench.csv", std::vector<std::string>{"--technique",
+                                                        "lightmap,hl2,h4,h6,sh2,sh3,sh5,zernike3,zernike6,hsh4,hsh9"}),
+        std::pair("scaling.csv", std::vector<std::string>{"--scaling", "threads,coefficients"})}) {
+    const std::string name = csv_name;
+    CAPTURE(name);
+    const Folder folder;
+    folder.file(name, "of an earlier run");
+    std::vector<std::string> arguments = quick;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    arguments.insert(arguments.end(), {"-o", folder / "", "--json", folder / "rows.json"});
+    bool kept = true;  // what was there, until the first row is
+    const Run run = run_twinshade_until(small_quad({"bench"}, arguments), [&] {
+      const std::string csv = whole(folder / name);
+      kept = kept && !csv.empty();
+      return csv != "of an earlier run" && std::filesystem::exists(folder / "rows.json");
+    });
+    CHECK(kept);
+    CAPTURE(run.err);
+    CHECK(run.code == 128 + SIGTERM);
+    std::vector<std::string> names{name, "rows.json"};
+    std::sort(names.begin(), names.end());
+    CHECK(folder.names() == names);
+    CHECK(rows_of_whole(whole(folder / name)) > 0);
+    const nlohmann::json json = nlohmann::json::parse(whole(folder / "rows.json"));
+    CHECK(json["complete"] == false);
+    CHECK(json["rows"].size() > 0);
+  }
+}
+
+TEST_CASE("a bench that fails before its first row leaves what was there") {
+  const Folder folder;
+  for (const std::vector<std::string>& failing :
+       {std::vector<std::string>{"--lightmap", "4096", "--rays", "65536", "--technique", "nonsense"},
+        {"--scaling", "coefficients", "--technique", "unc3"}}) {
+    for (const char* name : {"bench.csv", "scaling.csv", "rows.json"}) folder.file(name, "of an earlier run");
+    std::vector<std::string> arguments{"bench", "quad", "-o", folder / "", "--json", folder / "rows.json"};
+    arguments.insert(arguments.end(), failing.begin(), failing.end());
+    CHECK(run_twinshade(arguments).code == 2);
+    for (const char* name : {"bench.csv", "scaling.csv", "rows.json"})
+      CHECK(whole(folder / name) == "of an earlier run");
+    CHECK(folder.names().size() == 3);
+  }
+}
+
+TEST_CASE("JSON that goes to stdout or to a descriptor is one document, at the end") {
+  for (const char* to : {"-", "/dev/stdout"}) {
+    const Run run = run_twinshade(small_quad({"bench"}, {"--technique", "lightmap,h4", "--rounds", "1", "--repeat", "1",
+                                                         "--isa", "baseline", "--attributes", "exact", "--json", to}));
+    REQUIRE_MESSAGE((run.code == 0 || !why_missing("egl").empty()), run.err);
+    const std::string json = run.out.substr(run.out.find("{\n"));
+    CHECK(nlohmann::json::parse(json)["complete"] == true);
+  }
 }
 
 }  // namespace twinshade

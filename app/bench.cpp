@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -38,6 +39,22 @@ constexpr const char* kNotWithScaling[] = {"--attributes",
                                            "--visibility-storage",
                                            "--visibility-packing"};
 
+// What only some axes of --scaling read: the others draw a square of their own, sizes of their own, techniques of their
+// own. All else is read by all.
+struct ReadByAxes {
+  const char* option;
+  std::vector<std::string> axes;
+};
+const std::vector<ReadByAxes> kReadByAxes{{"scene", {"pixels", "threads", "coefficients"}},
+                                          {"--triangles", {"pixels", "threads", "coefficients"}},
+                                          {"--camera", {"pixels", "threads", "coefficients"}},
+                                          {"--albedo", {"pixels", "threads", "coefficients"}},
+                                          {"--normal-map", {"pixels", "threads", "coefficients"}},
+                                          {"--size", {"threads", "coefficients"}},
+                                          {"--volume", {"coefficients"}},
+                                          {"--probe-rays", {"coefficients"}},
+                                          {"--technique", {"pixels", "triangles", "overdraw", "threads"}}};
+
 struct BenchVerb {
   CLI::App* command = nullptr;
   CommonOptions common;
@@ -56,6 +73,7 @@ struct BenchVerb {
   std::vector<std::string> files_written() const;  // into the folder
   // The rows measured so far, into `name` in the folder and to where --json says, before what comes next is measured.
   void write_so_far(const Output& output, const std::string& name, const std::string& csv, const Json& json) const;
+  void require_meaning_with_scaling() const;
   int time_techniques(const Output& output) const;
   int time_scaling(const Output& output) const;
 };
@@ -101,13 +119,25 @@ void BenchVerb::write_so_far(const Output& output, const std::string& name, cons
   output.json_so_far(json);
 }
 
-int BenchVerb::time_scaling(const Output& output) const {
+void BenchVerb::require_meaning_with_scaling() const {
   for (const char* option : kNotWithScaling)
     if (command->get_option(option)->count() > 0)
       throw UserError(
           fmt::format("{} has no meaning with --scaling, which draws a basis with exact attributes from the "
                       "lightmaps and volumes of its axes: leave it out",
                       option));
+  require_axes(axes);
+  for (const ReadByAxes& read : kReadByAxes)
+    if (command->get_option(read.option)->count() > 0 &&
+        std::none_of(read.axes.begin(), read.axes.end(), [&](const std::string& axis) { return has_axis(axes, axis); }))
+      throw UserError(fmt::format(
+          "{} has no meaning with --scaling {}: of the axes {} it; leave it out",
+          read.option == std::string("scene") ? subject.scene : read.option, fmt::join(axes, ","),
+          read.axes.size() == 1 ? read.axes[0] + " alone reads" : fmt::format("{} read", fmt::join(read.axes, ", "))));
+}
+
+int BenchVerb::time_scaling(const Output& output) const {
+  require_meaning_with_scaling();
   std::error_code code;
   if (std::filesystem::is_regular_file(subject.scene, code) && model_file_ending(subject.scene).empty())
     throw UserError(subject.scene +
@@ -119,8 +149,9 @@ int BenchVerb::time_scaling(const Output& output) const {
   options.cpu = cpu;
   options.host_fma = host_fma;
   options.rounds = Rounds{rounds, repeat};
-  if (!wants_all(shading)) {
-    if (shading.techniques.size() != 1) throw UserError("--scaling draws with one technique: name one by --technique");
+  if (command->get_option("--technique")->count() > 0) {
+    if (shading.techniques.size() != 1 || shading.techniques.front() == "all")
+      throw UserError("--scaling draws with one technique: name one by --technique");
     options.technique = shading.techniques.front();
   }
   Provenance provenance(common);

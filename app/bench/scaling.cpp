@@ -52,12 +52,6 @@ const std::vector<Axis>& axes() {
   return list;
 }
 
-const std::string* find_axis(const std::vector<std::string>& names, const std::string& axis) {
-  for (const std::string& name : names)
-    if (name == axis || name == "all") return &name;
-  return nullptr;
-}
-
 class ScalingRun {
  public:
   ScalingRun(const ScalingOptions& options, const CommonOptions& common, const Output& output)
@@ -65,9 +59,7 @@ class ScalingRun {
     if (!technique_.is_basis || !can_read(technique_, CoefficientStorage::lightmap))
       throw UserError(
           fmt::format("--technique {}: scaling draws with a basis that is read from lightmaps", options.technique));
-    for (const std::string& name : options.axes)
-      if (name != "all" && std::find(scaling_axes().begin(), scaling_axes().end(), name) == scaling_axes().end())
-        throw UserError(unknown_name_message("axis", name, scaling_axes()));
+    require_axes(options.axes);
   }
 
   ExperimentResult run() {
@@ -83,7 +75,7 @@ class ScalingRun {
   }
 
  private:
-  bool asked(const std::string& axis) const { return find_axis(options_.axes, axis) != nullptr; }
+  bool asked(const std::string& axis) const { return has_axis(options_.axes, axis); }
 
   // Baked once: what light a surface gets does not depend on how finely it is divided.
   LightBake bake(const Scene& scene) const {
@@ -308,10 +300,20 @@ const std::vector<std::string>& scaling_axes() {
   return names;
 }
 
+void require_axes(const std::vector<std::string>& axes) {
+  for (const std::string& name : axes)
+    if (name != "all" && std::find(scaling_axes().begin(), scaling_axes().end(), name) == scaling_axes().end())
+      throw UserError(unknown_name_message("axis", name, scaling_axes()));
+}
+
+bool has_axis(const std::vector<std::string>& axes, const std::string& axis) {
+  return std::any_of(axes.begin(), axes.end(), [&](const std::string& name) { return name == axis || name == "all"; });
+}
+
 std::vector<std::string> scaling_pictures(const std::vector<std::string>& axes) {
   std::vector<std::string> pictures;
   for (const std::string& axis : scaling_axes())
-    if (find_axis(axes, axis))
+    if (has_axis(axes, axis))
       for (const char* of : {"", "-memory"}) pictures.push_back("scaling-" + axis + of);
   return pictures;
 }

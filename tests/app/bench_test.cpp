@@ -234,6 +234,36 @@ TEST_CASE("scaling refuses by name what has no meaning there") {
   refused({"bench", bundle, "--scaling", "threads"}, "quad.bundle: --scaling bakes what it draws");
 }
 
+TEST_CASE("scaling refuses what none of the chosen axes reads, and takes what one of them does") {
+  const auto refused = [](const std::vector<std::string>& arguments, const std::string& what) {
+    const Run run = run_twinshade(arguments);
+    CAPTURE(run.err);
+    CHECK(run.code == 2);
+    CHECK(run.out.empty());
+    CHECK(run.err.find(what) != std::string::npos);
+    CHECK(run.err.find('\n') == run.err.size() - 1);
+  };
+  refused({"bench", "--scaling", "threads", "--volume", "2x2x2"},
+          "--volume has no meaning with --scaling threads: of the axes coefficients alone reads it; leave it out");
+  refused({"bench", "--scaling", "pixels,threads", "--probe-rays", "16"}, "--probe-rays has no meaning with --scaling");
+  refused({"bench", "--scaling", "pixels", "--size", "64x40"},
+          "--size has no meaning with --scaling pixels: of the axes threads, coefficients read it; leave it out");
+  refused({"bench", "house", "--scaling", "triangles,overdraw"}, "house has no meaning with --scaling");
+  for (const auto& [option, value] : {std::pair("--triangles", "100"), std::pair("--camera", "0,0,5,0,0,0,50"),
+                                      std::pair("--albedo", "off"), std::pair("--normal-map", "off")})
+    refused({"bench", "--scaling", "overdraw", option, value},
+            std::string(option) + " has no meaning with --scaling overdraw");
+  refused({"bench", "--scaling", "coefficients", "--technique", "h4"},
+          "--technique has no meaning with --scaling coefficients");
+  for (const char* several : {"all", "h4,h6"})
+    refused({"bench", "--scaling", "all", "--technique", several}, "--scaling draws with one technique");
+  refused({"bench", "--scaling", "pixel", "--volume", "2x2x2"}, "pixels");
+  const Run taken = run_twinshade(
+      small_quad({"bench"}, {"--scaling", "threads", "--threads", "1", "--albedo", "off", "--technique", "h4",
+                             "--triangles", "100", "--rounds", "1", "--repeat", "1", "--json", "-"}));
+  CHECK_MESSAGE(taken.code == 0, taken.err);
+}
+
 TEST_CASE("points against coefficients come in their order, and memory, the same for all, is not drawn against them") {
   const Folder folder;
   const Run run =
@@ -288,7 +318,7 @@ TEST_CASE("a bench that fails before its first row leaves what was there") {
   const Folder folder;
   for (const std::vector<std::string>& failing :
        {std::vector<std::string>{"--lightmap", "4096", "--rays", "65536", "--technique", "nonsense"},
-        {"--scaling", "coefficients", "--technique", "unc3"}}) {
+        {"--scaling", "threads", "--technique", "unc3"}}) {
     for (const char* name : {"bench.csv", "scaling.csv", "rows.json"}) folder.file(name, "of an earlier run");
     std::vector<std::string> arguments{"bench", "quad", "-o", folder / "", "--json", folder / "rows.json"};
     arguments.insert(arguments.end(), failing.begin(), failing.end());

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <numeric>
 
 #include "app/bench/overdraw.h"
 #include "app/memory_needed.h"
@@ -21,8 +23,10 @@ namespace {
 struct Size {
   std::uint32_t width, height;
 };
-constexpr Size kSizes[] = {{64, 64},     {160, 100},   {320, 200},   {640, 400},  {1280, 800},
-                           {1920, 1080}, {2560, 1600}, {3840, 2160}, {7680, 4320}};
+constexpr Size kSizes[] = {{64, 64},    {160, 100},   {320, 200},   {640, 400},   {854, 480},  {1280, 800},
+                           {1366, 768}, {1920, 1080}, {2560, 1600}, {3840, 2160}, {7680, 4320}};
+// Frames whose rows begin in the middle of a cache line are stored another way.
+static_assert(std::any_of(std::begin(kSizes), std::end(kSizes), [](const Size& size) { return size.width % 4 != 0; }));
 constexpr std::uint32_t kTriangles[] = {100, 1000, 10000, 100000, 1000000, 5000000};
 constexpr int kLayers[] = {1, 2, 4, 8, 16, 32};
 // From lightmaps, then from volumes: 1 to 36 coefficients a channel.
@@ -220,12 +224,16 @@ class ScalingRun {
     if (rows_.size() > 0) options_.measured(rows_, notes_);
   }
 
-  // Of one axis, `column` against its values: a line for each machine, and where light is read from on the axis of
-  // coefficients.
+  // Of one axis, `column` against its values, which rise: a line for each machine, and where light is read from on the
+  // axis of coefficients. A frame with more pixels than the one before may show less of the scene.
   std::vector<Series> series(const std::string& axis, const std::string& column, double scale,
                              const std::string& prefix = "") const {
+    std::vector<std::size_t> rising(rows_.size());
+    std::iota(rising.begin(), rising.end(), std::size_t{0});
+    std::stable_sort(rising.begin(), rising.end(),
+                     [&](std::size_t a, std::size_t b) { return rows_.number(a, "value") < rows_.number(b, "value"); });
     std::map<std::string, Series> by_label;
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
+    for (const std::size_t r : rising) {
       if (std::get<std::string>(rows_.at(r, "axis")) != axis) continue;
       const double y = rows_.number(r, column) * scale;
       if (!(y > 0)) continue;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -38,6 +39,22 @@ constexpr const char* kNotWithScaling[] = {"--attributes",
                                            "--visibility-storage",
                                            "--visibility-packing"};
 
+// What only some axes of --scaling read: the others draw a square of their own, sizes of their own, techniques of their
+// own. All else is read by all.
+struct ReadByAxes {
+  const char* option;
+  std::vector<std::string> axes;
+};
+const std::vector<ReadByAxes> kReadByAxes{{"scene", {"pixels", "threads", "coefficients"}},
+                                          {"--triangles", {"pixels", "threads", "coefficients"}},
+                                          {"--camera", {"pixels", "threads", "coefficients"}},
+                                          {"--albedo", {"pixels", "threads", "coefficients"}},
+                                          {"--normal-map", {"pixels", "threads", "coefficients"}},
+                                          {"--size", {"threads", "coefficients"}},
+                                          {"--volume", {"coefficients"}},
+                                          {"--probe-rays", {"coefficients"}},
+                                          {"--technique", {"pixels", "triangles", "overdraw", "threads"}}};
+
 struct BenchVerb {
   CLI::App* command = nullptr;
   CommonOptions common;
@@ -54,6 +71,9 @@ struct BenchVerb {
 
  private:
   std::vector<std::string> files_written() const;  // into the folder
+  // The rows measured so far, into `name` in the folder and to where --json says, before what comes next is measured.
+  void write_so_far(const Output& output, const std::string& name, const std::string& csv, const Json& json) const;
+  void require_meaning_with_scaling() const;
   int time_techniques(const Output& output) const;
   int time_scaling(const Output& output) const;
 };
@@ -92,13 +112,32 @@ std::vector<std::string> BenchVerb::files_written() const {
   return names;
 }
 
-int BenchVerb::time_scaling(const Output& output) const {
+void BenchVerb::write_so_far(const Output& output, const std::string& name, const std::string& csv,
+                             const Json& json) const {
+  if (!folder.empty())
+    if (const std::string path = output.claimed(name); is_replaced_by_writing(path)) write_file(path, csv);
+  output.json_so_far(json);
+}
+
+void BenchVerb::require_meaning_with_scaling() const {
   for (const char* option : kNotWithScaling)
     if (command->get_option(option)->count() > 0)
       throw UserError(
           fmt::format("{} has no meaning with --scaling, which draws a basis with exact attributes from the "
                       "lightmaps and volumes of its axes: leave it out",
                       option));
+  require_axes(axes);
+  for (const ReadByAxes& read : kReadByAxes)
+    if (command->get_option(read.option)->count() > 0 &&
+        std::none_of(read.axes.begin(), read.axes.end(), [&](const std::string& axis) { return has_axis(axes, axis); }))
+      throw UserError(fmt::format(
+          "{} has no meaning with --scaling {}: of the axes {} it; leave it out",
+          read.option == std::string("scene") ? subject.scene : read.option, fmt::join(axes, ","),
+          read.axes.size() == 1 ? read.axes[0] + " alone reads" : fmt::format("{} read", fmt::join(read.axes, ", "))));
+}
+
+int BenchVerb::time_scaling(const Output& output) const {
+  require_meaning_with_scaling();
   std::error_code code;
   if (std::filesystem::is_regular_file(subject.scene, code) && model_file_ending(subject.scene).empty())
     throw UserError(subject.scene +
@@ -110,20 +149,27 @@ int BenchVerb::time_scaling(const Output& output) const {
   options.cpu = cpu;
   options.host_fma = host_fma;
   options.rounds = Rounds{rounds, repeat};
-  if (!wants_all(shading)) {
-    if (shading.techniques.size() != 1) throw UserError("--scaling draws with one technique: name one by --technique");
+  if (command->get_option("--technique")->count() > 0) {
+    if (shading.techniques.size() != 1 || shading.techniques.front() == "all")
+      throw UserError("--scaling draws with one technique: name one by --technique");
     options.technique = shading.techniques.front();
   }
   Provenance provenance(common);
   options.rounds.drawn = [&](const Way& way, const Frame& frame) { provenance.add(way.machine(), frame); };
+  const auto json = [&](const Rows& rows, const std::vector<std::string>& notes, bool complete) -> Json {
+    return {{"provenance", provenance.json()}, {"complete", complete}, {"rows", json_rows(rows)}, {"notes", notes}};
+  };
+  options.measured = [&](const Rows& rows, const std::vector<std::string>& notes) {
+    write_so_far(output, "scaling.csv", rows.csv(), json(rows, notes, false));
+  };
   const ExperimentResult result = run_scaling(options, common, output);
   output.text(table_text(result.rows));
   for (const std::string& note : result.notes) output.note(note);
   if (!folder.empty()) {
-    write_file((std::filesystem::path(folder) / "scaling.csv").string(), result.rows.csv());
+    write_file(output.claimed("scaling.csv"), result.rows.csv());
     write_pictures(folder, result.pictures, output);
   }
-  output.json({{"provenance", provenance.json()}, {"rows", json_rows(result.rows)}, {"notes", result.notes}});
+  output.json(json(result.rows, result.notes, true));
   return 0;
 }
 
@@ -145,6 +191,13 @@ int BenchVerb::time_techniques(const Output& output) const {
   std::vector<Limits> limits;
   for (const Isa isa : isas) limits.push_back(measure_limits(isa));
   Report report(limits);
+  const auto json = [&](bool complete) -> Json {
+    return {{"provenance", provenance.json()},
+            {"complete", complete},
+            {"limits", report.limits_json()},
+            {"rows", report.rows_json()},
+            {"summary", report.summary_json()}};
+  };
   std::string skipped;
   for (const auto& [technique, reason] : subject_ready.skipped)
     skipped += fmt::format("skipped {}: {}\n", technique, reason);
@@ -162,17 +215,16 @@ int BenchVerb::time_techniques(const Output& output) const {
     } catch (const UserError& error) {
       if (!wants_all(shading)) throw;
       skipped += fmt::format("skipped {}: {}\n", shader.label(), error.what());
+      continue;
     }
+    write_so_far(output, "bench.csv", report.csv(), json(false));
   }
   output.text(report.text() + skipped);
   if (!folder.empty()) {
-    write_file((std::filesystem::path(folder) / "bench.csv").string(), report.csv());
+    write_file(output.claimed("bench.csv"), report.csv());
     write_pictures(folder, report.pictures(), output);
   }
-  output.json({{"provenance", provenance.json()},
-               {"limits", report.limits_json()},
-               {"rows", report.rows_json()},
-               {"summary", report.summary_json()}});
+  output.json(json(true));
   return report.failed() ? 2 : 0;
 }
 
@@ -194,9 +246,11 @@ Verb add_bench(CLI::App& app) {
       ->delimiter(',')
       ->type_name("AXIS,...");
   command
-      ->add_option("-o,--output", verb->folder,
-                   "write bench.csv, bench.svg, bench.png and the stages into this folder; with --scaling, scaling.csv "
-                   "and a chart of each axis")
+      ->add_option(
+          "-o,--output", verb->folder,
+          "write bench.csv, bench.svg, bench.png and the stages into this folder; with --scaling, scaling.csv "
+          "and a chart of each axis. The CSV, and --json's file, are written anew after each technique or point "
+          "measured: a run that is stopped leaves what it had")
       ->type_name("DIR");
   add_cpu_options(*command, verb->cpu, "each that there is; with --scaling the best");
   add_fma_option(*command, verb->host_fma);

@@ -108,6 +108,7 @@ struct EvalVerb {
       guarded(cases[i], many, output, [&] {
         if (!paths[i].missing.empty()) throw UserError(paths[i].missing);
         sources[i] = load_fragment_shader(paths[i].shader, include_folders);
+        cases[i].hash = source_hash(sources[i]);
         cases[i].cases = parse_cases(read_file(paths[i].cases, kMostCasesBytes), paths[i].cases);
       });
     }
@@ -202,9 +203,11 @@ struct EvalVerb {
 
   void write_files(const std::vector<EvaluatedCase>& cases, const Output& output) const {
     Provenance provenance(common);
-    for (const EvaluatedCase& c : cases)
+    for (const EvaluatedCase& c : cases) {
+      if (!c.hash.empty()) provenance.add_shader(c.file, c.hash);
       for (const EvaluatedBackend& backend : c.backends)
         if (backend.error.empty()) provenance.add(backend.name, backend.rows.provenance);
+    }
     output.json({{"provenance", provenance.json()}, {"cases", eval_json(cases)}});
     output.junit(junit_xml("twinshade eval", eval_junit(cases)));
   }

@@ -15,19 +15,23 @@ constexpr std::uint64_t kFramePixel = 16 + 4 + 4 + 1;
 constexpr std::uint64_t kGlPixel = kFramePixel + 24 + 24;
 
 // Bytes a triangle of a scene, its ray tree, its bundle and what the CPU keeps to draw it: 217 to 296 were measured
-// with light from lightmaps (docs/performance.md), coefficients that vertices keep are not counted.
+// with light from lightmaps (docs/performance.md). What vertices keep of light comes on top.
 constexpr std::uint64_t kTriangle = 400;
 
-// Bytes a lightmap texel or a probe: the larger of what baking takes (coefficients of light, receivers or directions,
-// the file for the cache) and of what drawing does, with each layer of the textures (RGBA32F in the bundle, interleaved
-// for the CPU, and in the memory shared with OpenGL's worker). Measured, and a few percent added: the most that bench
-// of quad held (VmHWM of /proc/PID/status, less 31 MiB) at --lightmap 512 and 1024 with 1 to 25 layers: 932 baked,
-// 1,504 drawn with 25; at --volume 64x64x64 with 4 and 36: 1,324 baked, 2,184 drawn with 36.
+// Bytes a lightmap texel, a probe or a vertex: the larger of what baking takes (coefficients of light, receivers or
+// directions, the file for the cache) and of what drawing does, with each layer of the textures (RGBA32F in the bundle,
+// interleaved for the CPU, and in the memory shared with OpenGL's worker). Measured, and a few percent added: the most
+// that bench of quad held (VmHWM of /proc/PID/status, less 31 MiB) at --lightmap 512 and 1024 with 1 to 25 layers: 932
+// baked, 1,504 drawn with 25; at --volume 64x64x64 with 4 and 36: 1,324 baked, 2,184 drawn with 36.
 struct LightCell {
   std::uint64_t baked, drawn, layer;
   std::uint64_t bytes(std::uint64_t layers) const { return std::max(baked, drawn + layer * layers); }
 };
 constexpr LightCell kTexel{960, 360, 48}, kProbe{1370, 500, 48};
+// Measured over what the same takes with a lightmap of 16 x 16, of courtyard with 189,175 and 615,263 vertices: 408 and
+// 543 with the 4 coefficients of h4, 804 and 922 with the 25 of sh5; 2,016 with 63 (the smaller), 1,567 with 41 weights
+// of visibility (the larger).
+constexpr LightCell kVertex{560, 280, 32};
 
 // Bytes a texel while its rays are gathered, counted from what is kept: coefficients, receivers and their sites; and of
 // each ray whose hit is remembered, as many as lighting/gather.cpp keeps.
@@ -72,6 +76,14 @@ void require_volume_memory(const SubjectOptions& options, const std::vector<LitT
   require_memory(probes * kProbe.bytes(layers),
                  fmt::format("a volume of {}x{}x{} probes and {} layers", size.x, size.y, size.z, layers),
                  "choose a smaller --volume or fewer techniques");
+}
+
+void require_vertex_memory(std::size_t vertices, const std::vector<LitTechnique>& baked) {
+  const std::uint64_t layers = layers_in(baked, CoefficientStorage::vertex);
+  if (layers == 0) return;
+  require_memory(vertices * kVertex.bytes(layers),
+                 fmt::format("light of {} vertices, {} coefficients each,", vertices, layers),
+                 "choose fewer --triangles or fewer techniques");
 }
 
 }  // namespace twinshade

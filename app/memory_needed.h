@@ -1,6 +1,7 @@
 // What a subject and its frames take, so that what cannot fit is refused before anything is allocated.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -18,5 +19,7 @@ void require_scene_memory(const SubjectOptions& options);
 void require_lightmap_memory(const SubjectOptions& options, const std::vector<LitTechnique>& baked);
 // The same of irradiance volumes alone.
 void require_volume_memory(const SubjectOptions& options, const std::vector<LitTechnique>& baked);
+// UserError where what a scene's vertices, so many, keep of `baked`, and the light that it is made from, do not fit.
+void require_vertex_memory(std::size_t vertices, const std::vector<LitTechnique>& baked);
 
 }  // namespace twinshade

@@ -145,6 +145,10 @@ void Output::json(const Json& json) const {
   if (!options_.json.empty()) write_to(options_.json, json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 
+void Output::json_so_far(const Json& so_far) const {
+  if (!options_.json.empty() && options_.json != "-" && is_replaced_by_writing(options_.json)) json(so_far);
+}
+
 void Output::junit(const std::string& xml) const { write_to(junit_file_, xml); }
 
 std::vector<std::string> files_of_shader(const std::string& shader, const std::vector<std::string>& include_folders) {

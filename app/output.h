@@ -36,7 +36,9 @@ class Output {
   void note(const std::string& line) const;  // "note: ..." on stderr, unless --quiet
   // What is being done, on stderr where that is a terminal, unless --quiet; the next output replaces it.
   void progress(const std::string& line) const;
-  void json(const Json& json) const;         // to where --json says; nothing without it
+  void json(const Json& json) const;  // to where --json says; nothing without it
+  // The same of what there is so far, before more of it: to files alone, which the next one replaces.
+  void json_so_far(const Json& json) const;
   void junit(const std::string& xml) const;  // to where --junit says; nothing without it
 
  private:

@@ -314,6 +314,7 @@ Subject load_subject(const SubjectOptions& options, const ShadingOptions& shadin
         });
     const std::vector<LitTechnique> baked = own_shader ? coefficients_read(text, scene, shading.light) : subject.drawn;
     require_lightmap_memory(options, baked);
+    require_vertex_memory(scene.positions.size(), baked);
     subject.bundle = bundle_from_scene(options, shading, scene, baked, common, output);
   }
   if (wants_all(shading)) subject.skipped.emplace_back(kReferenceTechnique, kReferenceReason);

@@ -183,6 +183,8 @@ void write_file(const std::string& path, std::string_view content) {
   });
 }
 
+bool is_replaced_by_writing(const std::string& path) { return !destination_of(path).in_place; }
+
 void require_writable_file(const std::string& path) { require_writable(path, destination_of(path)); }
 
 }  // namespace twinshade

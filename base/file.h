@@ -25,6 +25,10 @@ void write_file(const std::string& path, std::string_view content);
 // renamed to `path` when `write` returns, removed when it throws and when a signal ends the process (RemovedOnSignal).
 void write_file_with(const std::string& path, const std::function<void(const std::string& temporary)>& write);
 
+// Whether each write_file there leaves a whole file of what was written last. Where it writes to a device, a pipe or an
+// open descriptor instead, what is written twice is there twice.
+bool is_replaced_by_writing(const std::string& path);
+
 // UserError if write_file could not write there: found out before minutes of work, not after.
 void require_writable_file(const std::string& path);
 

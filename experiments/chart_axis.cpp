@@ -27,9 +27,10 @@ double nice_step(double range, bool whole) {
   return 10 * decade;
 }
 
-std::string decade_label(int exponent) {
-  if (exponent >= -3 && exponent <= 4) return fmt::format("{:.{}f}", power_of_ten(exponent), std::max(0, -exponent));
-  return fmt::format("1e{}", exponent);
+std::string logarithmic_label(int digit, int exponent) {
+  if (exponent >= -3 && exponent <= 4)
+    return fmt::format("{:.{}f}", digit * power_of_ten(exponent), std::max(0, -exponent));
+  return fmt::format("{}e{}", digit, exponent);
 }
 
 }  // namespace
@@ -76,12 +77,13 @@ std::vector<Scale::Tick> Scale::ticks() const {
   if (logarithmic_) {
     const int first = int(std::floor(log10_of(low_) - 1e-9)), last = int(std::ceil(log10_of(high_) + 1e-9));
     const int every = std::max(1, (last - first) / 8);
+    const bool few = log10_of(high_ / low_) < 2.5;  // decades: what lies between is read from twos and fives
     for (int exponent = first; exponent <= last; ++exponent)
       for (int digit = 1; digit <= 9; ++digit) {
         const double value = digit * power_of_ten(exponent);
         if (value < low_ * 0.999999 || value > high_ * 1.000001) continue;
-        if (digit == 1 || every == 1)
-          list.push_back({value, digit == 1 && (exponent - first) % every == 0 ? decade_label(exponent) : ""});
+        const bool labelled = digit == 1 ? (exponent - first) % every == 0 : few && (digit == 2 || digit == 5);
+        if (digit == 1 || every == 1) list.push_back({value, labelled ? logarithmic_label(digit, exponent) : ""});
       }
     return list;
   }

@@ -31,6 +31,29 @@ constexpr const char* kDefinedDirection =
     "  return defined ? direction : vec3(0.0);\n"
     "}\n";
 
+// What follows "BASIS_COUNT =" up to the semicolon, blanks apart; empty where there is no such thing.
+std::string basis_count(const std::string& glsl) {
+  constexpr std::string_view kName = "BASIS_COUNT", kBlanks = " \t";
+  for (std::size_t at = glsl.find(kName); at != glsl.npos; at = glsl.find(kName, at + 1)) {
+    const std::size_t sign = glsl.find_first_not_of(kBlanks, at + kName.size());
+    if (sign == glsl.npos || glsl[sign] != '=' || glsl[sign + 1] == '=') continue;
+    const std::size_t from = glsl.find_first_not_of(kBlanks, sign + 1), to = glsl.find_first_of(";\n", from);
+    return from == glsl.npos ? "" : glsl.substr(from, to - from);
+  }
+  return "";
+}
+
+// A basis' shader, whose BASIS_COUNT must be the registry's count: bundles hold as many coefficients as the one says,
+// the shader reads as many as the other.
+ShaderSource require_count(const TechniqueInfo& technique, ShaderSource source) {
+  const std::string count = basis_count(source.text), expected = std::to_string(technique.count);
+  if (technique.is_basis && count != expected)
+    throw UserError("basis/" + std::string(technique.file) + ": BASIS_COUNT is " +
+                    (count.empty() ? "not there" : count) + ", but BASIS(" + std::string(technique.name) +
+                    ", ...) in lighting/registry.def has a count of " + expected + ": write the same number in both");
+  return source;
+}
+
 }  // namespace
 
 std::span<const TechniqueInfo> techniques() { return kTechniques; }
@@ -157,7 +180,7 @@ ShaderSource visibility_source(const TechniqueInfo& technique, CoefficientStorag
 
 ShaderSource technique_source(const TechniqueInfo& technique, CoefficientStorage storage,
                               const std::vector<std::string>& include_folders) {
-  return technique_text(technique, storage, sphere_maps().front()).resolve(include_folders);
+  return require_count(technique, technique_text(technique, storage, sphere_maps().front()).resolve(include_folders));
 }
 
 ShaderSource driver_source(const TechniqueInfo& technique, CoefficientStorage storage, const SphereMapInfo& map) {
@@ -181,7 +204,7 @@ ShaderSource basis_values_source(const TechniqueInfo& technique, const std::vect
       "  vec3 n = defined_direction();\n"
       "  for (int i = 0; i < BASIS_COUNT; ++i) value[i] = basis_value(i, n);\n"
       "}\n";
-  return resolve_shader(name + "_values", text, name + "_values", include_folders);
+  return require_count(technique, resolve_shader(name + "_values", text, name + "_values", include_folders));
 }
 
 ShaderSource basis_irradiance_source(const TechniqueInfo& technique, const std::vector<std::string>& include_folders) {
@@ -206,7 +229,7 @@ ShaderSource basis_irradiance_source(const TechniqueInfo& technique, const std::
       "  irradiance = basis_irradiance(defined_direction());\n"
       "  reads = float(coefficients_read);\n"
       "}\n";
-  return resolve_shader(name + "_irradiance", text, name + "_irradiance", include_folders);
+  return require_count(technique, resolve_shader(name + "_irradiance", text, name + "_irradiance", include_folders));
 }
 
 }  // namespace twinshade

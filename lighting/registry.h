@@ -74,6 +74,7 @@ bool can_read(const TechniqueInfo& technique, CoefficientStorage storage);
 // attributes "coefficients_b[i]" (vertex), or texture "volume_b" (technique/coefficients_volume.glsl says which probe
 // is where).
 // include_folders: searched for the basis' file before the built-in ones, for techniques that are not in the registry.
+// UserError, here and from the host's below, where the file's BASIS_COUNT is not the technique's count.
 ShaderSource technique_source(const TechniqueInfo& technique, CoefficientStorage storage,
                               const std::vector<std::string>& include_folders = {});
 

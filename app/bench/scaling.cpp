@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <numeric>
 
 #include "app/bench/overdraw.h"
 #include "app/memory_needed.h"
@@ -21,8 +23,10 @@ namespace {
 struct Size {
   std::uint32_t width, height;
 };
-constexpr Size kSizes[] = {{64, 64},     {160, 100},   {320, 200},   {640, 400},  {1280, 800},
-                           {1920, 1080}, {2560, 1600}, {3840, 2160}, {7680, 4320}};
+constexpr Size kSizes[] = {{64, 64},    {160, 100},   {320, 200},   {640, 400},   {854, 480},  {1280, 800},
+                           {1366, 768}, {1920, 1080}, {2560, 1600}, {3840, 2160}, {7680, 4320}};
+// Frames whose rows begin in the middle of a cache line are stored another way.
+static_assert(std::any_of(std::begin(kSizes), std::end(kSizes), [](const Size& size) { return size.width % 4 != 0; }));
 constexpr std::uint32_t kTriangles[] = {100, 1000, 10000, 100000, 1000000, 5000000};
 constexpr int kLayers[] = {1, 2, 4, 8, 16, 32};
 // From lightmaps, then from volumes: 1 to 36 coefficients a channel.
@@ -52,12 +56,6 @@ const std::vector<Axis>& axes() {
   return list;
 }
 
-const std::string* find_axis(const std::vector<std::string>& names, const std::string& axis) {
-  for (const std::string& name : names)
-    if (name == axis || name == "all") return &name;
-  return nullptr;
-}
-
 class ScalingRun {
  public:
   ScalingRun(const ScalingOptions& options, const CommonOptions& common, const Output& output)
@@ -65,9 +63,7 @@ class ScalingRun {
     if (!technique_.is_basis || !can_read(technique_, CoefficientStorage::lightmap))
       throw UserError(
           fmt::format("--technique {}: scaling draws with a basis that is read from lightmaps", options.technique));
-    for (const std::string& name : options.axes)
-      if (name != "all" && std::find(scaling_axes().begin(), scaling_axes().end(), name) == scaling_axes().end())
-        throw UserError(unknown_name_message("axis", name, scaling_axes()));
+    require_axes(options.axes);
   }
 
   ExperimentResult run() {
@@ -83,7 +79,7 @@ class ScalingRun {
   }
 
  private:
-  bool asked(const std::string& axis) const { return find_axis(options_.axes, axis) != nullptr; }
+  bool asked(const std::string& axis) const { return has_axis(options_.axes, axis); }
 
   // Baked once: what light a surface gets does not depend on how finely it is divided.
   LightBake bake(const Scene& scene) const {
@@ -225,14 +221,19 @@ class ScalingRun {
       cells.push_back(timing.way.is_cpu() ? Cell(std::int64_t(timing.peak_memory)) : Cell());
       rows_.add(std::move(cells));
     }
+    if (rows_.size() > 0) options_.measured(rows_, notes_);
   }
 
-  // Of one axis, `column` against its values: a line for each machine, and where light is read from on the axis of
-  // coefficients.
+  // Of one axis, `column` against its values, which rise: a line for each machine, and where light is read from on the
+  // axis of coefficients. A frame with more pixels than the one before may show less of the scene.
   std::vector<Series> series(const std::string& axis, const std::string& column, double scale,
                              const std::string& prefix = "") const {
+    std::vector<std::size_t> rising(rows_.size());
+    std::iota(rising.begin(), rising.end(), std::size_t{0});
+    std::stable_sort(rising.begin(), rising.end(),
+                     [&](std::size_t a, std::size_t b) { return rows_.number(a, "value") < rows_.number(b, "value"); });
     std::map<std::string, Series> by_label;
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
+    for (const std::size_t r : rising) {
       if (std::get<std::string>(rows_.at(r, "axis")) != axis) continue;
       const double y = rows_.number(r, column) * scale;
       if (!(y > 0)) continue;
@@ -307,10 +308,20 @@ const std::vector<std::string>& scaling_axes() {
   return names;
 }
 
+void require_axes(const std::vector<std::string>& axes) {
+  for (const std::string& name : axes)
+    if (name != "all" && std::find(scaling_axes().begin(), scaling_axes().end(), name) == scaling_axes().end())
+      throw UserError(unknown_name_message("axis", name, scaling_axes()));
+}
+
+bool has_axis(const std::vector<std::string>& axes, const std::string& axis) {
+  return std::any_of(axes.begin(), axes.end(), [&](const std::string& name) { return name == axis || name == "all"; });
+}
+
 std::vector<std::string> scaling_pictures(const std::vector<std::string>& axes) {
   std::vector<std::string> pictures;
   for (const std::string& axis : scaling_axes())
-    if (find_axis(axes, axis))
+    if (has_axis(axes, axis))
       for (const char* of : {"", "-memory"}) pictures.push_back("scaling-" + axis + of);
   return pictures;
 }

@@ -2,6 +2,7 @@
 // shader reads.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,16 +20,22 @@ struct ScalingOptions {
   CpuOptions cpu;
   bool host_fma = true;
   Rounds rounds;
+  // Called after each point with all that was measured so far, a row at least.
+  std::function<void(const Rows&, const std::vector<std::string>& notes)> measured =
+      [](const Rows&, const std::vector<std::string>&) {};
 };
 
 // In the order in which they are measured.
 const std::vector<std::string>& scaling_axes();
+// UserError, with the nearest names, where one of these is neither an axis nor "all".
+void require_axes(const std::vector<std::string>& axes);
+// Whether these, names or "all", have that axis.
+bool has_axis(const std::vector<std::string>& axes, const std::string& axis);
 // Names of the pictures that these axes may give, without endings. axes: names, or "all".
 std::vector<std::string> scaling_pictures(const std::vector<std::string>& axes);
 
 // A row for each machine at each point of each axis; pictures: milliseconds, or nanoseconds a pixel, against each axis,
-// and memory against each but coefficients. UserError for axes that do not exist, with the nearest ones, and for other
-// techniques.
+// and memory against each but coefficients. UserError for axes that do not exist and for other techniques.
 ExperimentResult run_scaling(const ScalingOptions& options, const CommonOptions& common, const Output& output);
 
 }  // namespace twinshade::bench

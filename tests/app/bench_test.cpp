@@ -1,7 +1,9 @@
 // What bench says hangs together, whatever this machine's speed.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <fstream>
 #include <map>
 #include <set>
@@ -24,6 +26,25 @@ std::string whole(const std::string& path) {
   std::ostringstream text;
   text << in.rdbuf();
   return text.str();
+}
+
+// Rows of a CSV file that is whole: its lines are ended and have as many cells as its first.
+std::size_t rows_of_whole(const std::string& csv) {
+  REQUIRE(!csv.empty());
+  CHECK(csv.back() == '\n');
+  std::istringstream lines(csv);
+  std::size_t rows = 0;
+  std::ptrdiff_t commas = 0;
+  for (std::string line; std::getline(lines, line); ++rows) {
+    bool quoted = false;
+    const std::ptrdiff_t count = std::count_if(line.begin(), line.end(), [&](char c) {
+      quoted = quoted != (c == '"');
+      return c == ',' && !quoted;
+    });
+    if (rows == 0) commas = count;
+    CHECK(count == commas);
+  }
+  return rows - 1;
 }
 
 }  // namespace
@@ -213,6 +234,36 @@ TEST_CASE("scaling refuses by name what has no meaning there") {
   refused({"bench", bundle, "--scaling", "threads"}, "quad.bundle: --scaling bakes what it draws");
 }
 
+TEST_CASE("scaling refuses what none of the chosen axes reads, and takes what one of them does") {
+  const auto refused = [](const std::vector<std::string>& arguments, const std::string& what) {
+    const Run run = run_twinshade(arguments);
+    CAPTURE(run.err);
+    CHECK(run.code == 2);
+    CHECK(run.out.empty());
+    CHECK(run.err.find(what) != std::string::npos);
+    CHECK(run.err.find('\n') == run.err.size() - 1);
+  };
+  refused({"bench", "--scaling", "threads", "--volume", "2x2x2"},
+          "--volume has no meaning with --scaling threads: of the axes coefficients alone reads it; leave it out");
+  refused({"bench", "--scaling", "pixels,threads", "--probe-rays", "16"}, "--probe-rays has no meaning with --scaling");
+  refused({"bench", "--scaling", "pixels", "--size", "64x40"},
+          "--size has no meaning with --scaling pixels: of the axes threads, coefficients read it; leave it out");
+  refused({"bench", "house", "--scaling", "triangles,overdraw"}, "house has no meaning with --scaling");
+  for (const auto& [option, value] : {std::pair("--triangles", "100"), std::pair("--camera", "0,0,5,0,0,0,50"),
+                                      std::pair("--albedo", "off"), std::pair("--normal-map", "off")})
+    refused({"bench", "--scaling", "overdraw", option, value},
+            std::string(option) + " has no meaning with --scaling overdraw");
+  refused({"bench", "--scaling", "coefficients", "--technique", "h4"},
+          "--technique has no meaning with --scaling coefficients");
+  for (const char* several : {"all", "h4,h6"})
+    refused({"bench", "--scaling", "all", "--technique", several}, "--scaling draws with one technique");
+  refused({"bench", "--scaling", "pixel", "--volume", "2x2x2"}, "pixels");
+  const Run taken = run_twinshade(
+      small_quad({"bench"}, {"--scaling", "threads", "--threads", "1", "--albedo", "off", "--technique", "h4",
+                             "--triangles", "100", "--rounds", "1", "--repeat", "1", "--json", "-"}));
+  CHECK_MESSAGE(taken.code == 0, taken.err);
+}
+
 TEST_CASE("points against coefficients come in their order, and memory, the same for all, is not drawn against them") {
   const Folder folder;
   const Run run =
@@ -229,6 +280,63 @@ TEST_CASE("points against coefficients come in their order, and memory, the same
   CHECK(last["volumecpu"] == 36);
   CHECK(folder.names() ==
         std::vector<std::string>{"scaling-coefficients.png", "scaling-coefficients.svg", "scaling.csv"});
+}
+
+TEST_CASE("a bench that is stopped leaves the rows that it had measured, in whole files") {
+  const std::vector<std::string> quick{"--rounds", "1", "--repeat", "1", "--isa", "baseline"};
+  for (const auto& [csv_name, more] :
+       {std::pair("bench.csv", std::vector<std::string>{"--technique",
+                                                        "lightmap,hl2,h4,h6,sh2,sh3,sh5,zernike3,zernike6,hsh4,hsh9"}),
+        std::pair("scaling.csv", std::vector<std::string>{"--scaling", "threads,coefficients"})}) {
+    const std::string name = csv_name;
+    CAPTURE(name);
+    const Folder folder;
+    folder.file(name, "of an earlier run");
+    std::vector<std::string> arguments = quick;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    arguments.insert(arguments.end(), {"-o", folder / "", "--json", folder / "rows.json"});
+    bool kept = true;  // what was there, until the first row is
+    const Run run = run_twinshade_until(small_quad({"bench"}, arguments), [&] {
+      const std::string csv = whole(folder / name);
+      kept = kept && !csv.empty();
+      return csv != "of an earlier run" && std::filesystem::exists(folder / "rows.json");
+    });
+    CHECK(kept);
+    CAPTURE(run.err);
+    CHECK(run.code == 128 + SIGTERM);
+    std::vector<std::string> names{name, "rows.json"};
+    std::sort(names.begin(), names.end());
+    CHECK(folder.names() == names);
+    CHECK(rows_of_whole(whole(folder / name)) > 0);
+    const nlohmann::json json = nlohmann::json::parse(whole(folder / "rows.json"));
+    CHECK(json["complete"] == false);
+    CHECK(json["rows"].size() > 0);
+  }
+}
+
+TEST_CASE("a bench that fails before its first row leaves what was there") {
+  const Folder folder;
+  for (const std::vector<std::string>& failing :
+       {std::vector<std::string>{"--lightmap", "4096", "--rays", "65536", "--technique", "nonsense"},
+        {"--scaling", "threads", "--technique", "unc3"}}) {
+    for (const char* name : {"bench.csv", "scaling.csv", "rows.json"}) folder.file(name, "of an earlier run");
+    std::vector<std::string> arguments{"bench", "quad", "-o", folder / "", "--json", folder / "rows.json"};
+    arguments.insert(arguments.end(), failing.begin(), failing.end());
+    CHECK(run_twinshade(arguments).code == 2);
+    for (const char* name : {"bench.csv", "scaling.csv", "rows.json"})
+      CHECK(whole(folder / name) == "of an earlier run");
+    CHECK(folder.names().size() == 3);
+  }
+}
+
+TEST_CASE("JSON that goes to stdout or to a descriptor is one document, at the end") {
+  for (const char* to : {"-", "/dev/stdout"}) {
+    const Run run = run_twinshade(small_quad({"bench"}, {"--technique", "lightmap,h4", "--rounds", "1", "--repeat", "1",
+                                                         "--isa", "baseline", "--attributes", "exact", "--json", to}));
+    REQUIRE_MESSAGE((run.code == 0 || !why_missing("egl").empty()), run.err);
+    const std::string json = run.out.substr(run.out.find("{\n"));
+    CHECK(nlohmann::json::parse(json)["complete"] == true);
+  }
 }
 
 }  // namespace twinshade

@@ -55,6 +55,21 @@ TEST_CASE("eval passes what is as expected, and answers on every backend") {
   CHECK(in_double.json()["cases"][0]["backends"][0]["outputs"]["wide"][0][0] == 0.5 / 3.0);
 }
 
+TEST_CASE("eval's JSON has the hash of each shader, as check's has, and another one once its text changes") {
+  const Folder folder;
+  const std::string first = folder.file("a.frag", kShader), second = folder.file("b.frag", kShader + "// changed\n");
+  for (const char* name : {"a.json", "b.json"}) folder.file(name, cases("[[1, 2], [4, 6]]"));
+  const Run run = run_twinshade({"eval", folder / "", "--on", "cpu", "--json", "-"});
+  REQUIRE_MESSAGE(run.code == 0, run.err);
+  const nlohmann::json shaders = run.json()["provenance"]["shaders"];
+  REQUIRE(shaders.size() == 2);
+  CHECK(shaders[first].get<std::string>().size() == 64);
+  CHECK(shaders[first] != shaders[second]);
+  if (!why_missing("egl").empty()) return;
+  const Run check = run_twinshade({"check", first, "--on", "cpu,egl", "--rows", "16", "--no-timing", "--json", "-"});
+  CHECK(check.json()["provenance"]["shaders"][first] == shaders[first]);
+}
+
 TEST_CASE("eval shows a failure with its inputs, in decimal and as hex floats") {
   const Folder folder;
   const std::string junit = folder / "out.xml";

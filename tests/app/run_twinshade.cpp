@@ -8,10 +8,13 @@
 #include <doctest/doctest.h>
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <thread>
 
 extern char** environ;
 
@@ -25,9 +28,8 @@ std::string read_whole(const std::string& path) {
   return text.str();
 }
 
-}  // namespace
-
-Run run_twinshade(const std::vector<std::string>& arguments) {
+// until: see run_twinshade_until; empty: the run is waited for.
+Run run(const std::vector<std::string>& arguments, const std::function<bool()>& until) {
   std::filesystem::create_directories(TWINSHADE_TEST_CACHE);
   ::setenv("TWINSHADE_CACHE", TWINSHADE_TEST_CACHE, 1);
   const Folder folder;
@@ -50,12 +52,26 @@ Run run_twinshade(const std::vector<std::string>& arguments) {
   REQUIRE_MESSAGE(failed == 0, "cannot start " << program);
 
   int status = 0;
-  ::waitpid(child, &status, 0);
+  bool ended = false;
+  while (until && !ended && !until()) {
+    ended = ::waitpid(child, &status, WNOHANG) == child;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  if (until && !ended) ::kill(child, SIGTERM);
+  if (!ended) ::waitpid(child, &status, 0);
   Run run;
   run.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   run.out = read_whole(out);
   run.err = read_whole(err);
   return run;
+}
+
+}  // namespace
+
+Run run_twinshade(const std::vector<std::string>& arguments) { return run(arguments, nullptr); }
+
+Run run_twinshade_until(const std::vector<std::string>& arguments, const std::function<bool()>& until) {
+  return run(arguments, until);
 }
 
 Folder::Folder() {

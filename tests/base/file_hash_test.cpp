@@ -48,6 +48,21 @@ TEST_CASE("SHA-256 does not depend on how the bytes are handed over") {
   }
 }
 
+TEST_CASE("files and links to them are replaced by writing, devices, pipes and descriptors are not") {
+  TemporaryFolder folder;
+  const std::string file = (folder.path / "a").string(), link = (folder.path / "link").string(),
+                    pipe = (folder.path / "pipe").string();
+  CHECK(is_replaced_by_writing(file));
+  write_file(file, "a");
+  CHECK(is_replaced_by_writing(file));
+  fs::create_symlink(file, link);
+  CHECK(is_replaced_by_writing(link));
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK_FALSE(is_replaced_by_writing(pipe));
+  CHECK_FALSE(is_replaced_by_writing("/dev/null"));
+  CHECK_FALSE(is_replaced_by_writing("/dev/stdout"));
+}
+
 TEST_CASE("a written file is whole or not there") {
   TemporaryFolder folder;
   const std::string path = (folder.path / "a.txt").string();

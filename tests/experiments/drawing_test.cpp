@@ -68,6 +68,23 @@ TEST_CASE("an axis of what is counted has whole ticks") {
   CHECK(svg.find(">2</text>") != std::string::npos);
 }
 
+TEST_CASE("a logarithmic axis of few decades has labels between them, one of many has not") {
+  LineChart chart;
+  chart.y.logarithmic = true;
+  chart.series.push_back({"a", {1, 2}, {48, 0.31}, true});
+  const std::string many = draw(chart).svg();
+  for (const char* absent : {">20</text>", ">0.2</text>"}) CHECK(many.find(absent) == std::string::npos);
+  chart.series[0].y = {48, 47};
+  const std::string few = draw(chart).svg();
+  for (const char* label : {">10</text>", ">20</text>", ">50</text>", ">100</text>"})
+    CHECK(few.find(label) != std::string::npos);
+  CHECK(few.find(">30</text>") == std::string::npos);
+  chart.series[0].y = {0.031, 0.032};
+  CHECK(draw(chart).svg().find(">0.05</text>") != std::string::npos);
+  chart.series[0].y = {3e6, 4e6};
+  CHECK(draw(chart).svg().find(">2e6</text>") != std::string::npos);
+}
+
 TEST_CASE("charts without anything to show are drawn all the same") {
   CHECK(!draw(LineChart{}).png().empty());
   CHECK(!draw(BarChart{}).png().empty());

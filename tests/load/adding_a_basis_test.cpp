@@ -9,6 +9,7 @@
 #include <regex>
 #include <string>
 
+#include "base/error.h"
 #include "cpu_shaders/lint/lint.h"
 #include "cpu_shaders/load/host_eval.h"
 #include "cpu_shaders/load/load.h"
@@ -90,6 +91,21 @@ TEST_CASE(
     REQUIRE(e.size() == 4);
     for (int c = 0; c < 3; ++c) CHECK(e[std::size_t(c)] == doctest::Approx((1 + c) * v[0] + (4 + c) * v[1]));
     CHECK(e[3] == 2);  // coefficients read
+  }
+}
+
+TEST_CASE("a count in the registry that is not the file's BASIS_COUNT is refused with both") {
+  Example example;
+  for (const int count : {1, 3}) {
+    example.info.count = count;
+    const std::string message =
+        "basis/sky_ground.glsl: BASIS_COUNT is 2, but BASIS(sky_ground, ...) in "
+        "lighting/registry.def has a count of " +
+        std::to_string(count) + ": write the same number in both";
+    CHECK_THROWS_WITH_AS(technique_source(example.info, CoefficientStorage::volume, example.folders()), message.c_str(),
+                         UserError);
+    CHECK_THROWS_WITH_AS(basis_values_source(example.info, example.folders()), message.c_str(), UserError);
+    CHECK_THROWS_WITH_AS(basis_irradiance_source(example.info, example.folders()), message.c_str(), UserError);
   }
 }
 

@@ -55,15 +55,19 @@ std::string with_free_names(const ShaderSource& source) {
                                  "unpackSnorm4x8",
                                  "textureGather",
                                  "textureGatherOffset",
-                                 "buffer"};
+                                 "buffer",
+                                 "precise"};
   const auto has = [](const std::string& text) {
     return [&text](const char* name) { return text.find(name) != std::string::npos; };
   };
   if (std::none_of(kNames.begin(), kNames.end(), has(source.text))) return source.text;
   const std::string text = preprocess(source);
+  constexpr std::array kMakePreciseAKeyword = {"_gpu_shader5", "GL_ANDROID_extension_pack_es31a"};  // extensions
+  const bool precise_is_keyword = std::any_of(kMakePreciseAKeyword.begin(), kMakePreciseAKeyword.end(), has(text));
   std::string defines;
   for (const std::string name : kNames)
-    if (has(text)(name.c_str())) defines += "#define " + name + " " + name + std::string(kOfEs300) + "\n";
+    if (has(text)(name.c_str()) && !(name == "precise" && precise_is_keyword))
+      defines += "#define " + name + " " + name + std::string(kOfEs300) + "\n";
   const std::size_t version_end = text.find('\n') + 1;
   return text.substr(0, version_end) + defines + text.substr(version_end);
 }

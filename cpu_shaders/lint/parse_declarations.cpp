@@ -103,9 +103,10 @@ Variable* Parser::find_variable(const std::string& name) {
   return nullptr;
 }
 
-// Keywords of newer versions are names in older ones.
+// Keywords of newer versions are names in older ones: of blocks too, whose members follow.
 bool Parser::at_qualifier() {
-  return is_qualifier(peek()) && find_variable(peek().text) == nullptr && functions_.count(peek().text) == 0;
+  return is_qualifier(peek()) && !is("{", 1) && find_variable(peek().text) == nullptr &&
+         functions_.count(peek().text) == 0;
 }
 
 bool Parser::is_type(const Token& token) {

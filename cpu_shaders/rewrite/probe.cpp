@@ -444,8 +444,9 @@ ProbedShader add_probes(const ShaderSource& source, const std::optional<std::set
   result.values = std::move(probe.values_);
   result.complete = probe.complete_;
   std::string text;
-  if (source.es) {  // where every output would need a location; in 4.20 its names are no keywords yet
-    result.source.version = new_keywords(tokens, source).empty() ? 450 : 420;
+  if (source.es) {  // where every output would need a location; in earlier versions its names are no keywords yet
+    const std::set<std::string> names = new_keywords(tokens, source);
+    result.source.version = names.empty() ? 450 : names.count("precise") == 0 ? 420 : 330;
     result.source.es = false;
   } else {
     text = probe.edits_.head(source);

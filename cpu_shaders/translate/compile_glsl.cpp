@@ -5,15 +5,16 @@
 #include <glslang/SPIRV/GlslangToSpv.h>
 
 #include <algorithm>
+#include <array>
 #include <mutex>
 #include <regex>
 #include <string_view>
 
 #include "base/error.h"
 #include "cpu_shaders/source/glslang_environment.h"
+#include "cpu_shaders/source/glslang_trial.h"
 #include "cpu_shaders/source/preprocess.h"
 #include "cpu_shaders/translate/find_recursion.h"
-#include "cpu_shaders/source/glslang_trial.h"
 #include "cpu_shaders/translate/limits.h"
 #include "cpu_shaders/translate/mark_divisions.h"
 #include "cpu_shaders/translate/source_lines.h"
@@ -32,31 +33,41 @@ std::string text_as_version(const ShaderSource& source, int version) {
 
 constexpr std::string_view kOfEs300 = "_of_es_300";
 
-// Names that ES 310 takes for functions and keywords of its own are free in ES 300: there they get an ending.
-std::string with_free_names(const std::string& text) {
-  constexpr const char* kNames[] = {"bitCount",
-                                    "bitfieldExtract",
-                                    "bitfieldInsert",
-                                    "bitfieldReverse",
-                                    "findLSB",
-                                    "findMSB",
-                                    "frexp",
-                                    "ldexp",
-                                    "fma",
-                                    "imulExtended",
-                                    "umulExtended",
-                                    "uaddCarry",
-                                    "usubBorrow",
-                                    "packUnorm4x8",
-                                    "packSnorm4x8",
-                                    "unpackUnorm4x8",
-                                    "unpackSnorm4x8",
-                                    "textureGather",
-                                    "textureGatherOffset",
-                                    "buffer"};
+// Names that ES 310 takes for functions and keywords of its own are free in ES 300: there they get an ending. Macros
+// that the author calls so are expanded before.
+std::string with_free_names(const ShaderSource& source) {
+  constexpr std::array kNames = {"bitCount",
+                                 "bitfieldExtract",
+                                 "bitfieldInsert",
+                                 "bitfieldReverse",
+                                 "findLSB",
+                                 "findMSB",
+                                 "frexp",
+                                 "ldexp",
+                                 "fma",
+                                 "imulExtended",
+                                 "umulExtended",
+                                 "uaddCarry",
+                                 "usubBorrow",
+                                 "packUnorm4x8",
+                                 "packSnorm4x8",
+                                 "unpackUnorm4x8",
+                                 "unpackSnorm4x8",
+                                 "textureGather",
+                                 "textureGatherOffset",
+                                 "buffer",
+                                 "precise"};
+  const auto has = [](const std::string& text) {
+    return [&text](const char* name) { return text.find(name) != std::string::npos; };
+  };
+  if (std::none_of(kNames.begin(), kNames.end(), has(source.text))) return source.text;
+  const std::string text = preprocess(source);
+  constexpr std::array kMakePreciseAKeyword = {"_gpu_shader5", "GL_ANDROID_extension_pack_es31a"};  // extensions
+  const bool precise_is_keyword = std::any_of(kMakePreciseAKeyword.begin(), kMakePreciseAKeyword.end(), has(text));
   std::string defines;
   for (const std::string name : kNames)
-    if (text.find(name) != std::string::npos) defines += "#define " + name + " " + name + std::string(kOfEs300) + "\n";
+    if (has(text)(name.c_str()) && !(name == "precise" && precise_is_keyword))
+      defines += "#define " + name + " " + name + std::string(kOfEs300) + "\n";
   const std::size_t version_end = text.find('\n') + 1;
   return text.substr(0, version_end) + defines + text.substr(version_end);
 }
@@ -144,7 +155,7 @@ std::vector<std::uint32_t> compile_any_version(const ShaderSource& source) {
   if (source.es && source.version == 300) {
     compile(source, 300, false);
     ShaderSource with_names = source;
-    with_names.text = with_free_names(source.text);
+    with_names.text = with_free_names(source);
     std::vector<std::uint32_t> words = compile(with_names, 310, true);
     drop_ending(words);
     return words;

@@ -184,6 +184,10 @@ TEST_CASE("names that later versions made keywords are renamed in older shaders"
                                      " = vec4(1.0); color = " + word + "; }\n")
                                  .text),
                    "color = twinshade_name_" + word + " ;"));
+  CHECK(contains(tokens_of(globals("#version 300 es\nprecision highp float;\nout vec4 color;\n"
+                                   "void main() { vec4 precise = vec4(1.0); color = precise; }\n")
+                               .text),
+                 "color = twinshade_name_precise ;"));
   CHECK(author_name("twinshade_name_buffer[2].twinshade_name_sample") == "buffer[2].sample");
   CHECK(author_name("a_twinshade_name_b") == "a_twinshade_name_b");
   CHECK(contains(rejection("float twinshade_name_sample;\n" + kMain), "are reserved: rename twinshade_name_sample"));

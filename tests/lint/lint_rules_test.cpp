@@ -340,6 +340,16 @@ TEST_CASE("qualifiers of newer versions are names in older ones") {
   }
 }
 
+TEST_CASE("qualifiers of newer versions are names of blocks in older ones") {
+  const std::string text =
+      "#version 330\nin vec4 a; out vec4 c;\nuniform sample { float k; };\n"
+      "layout(std140) uniform buffer { vec4 v; } patch;\nvoid main() {\n  c = a + patch.v;\n  c = a * k;\n}\n";
+  const std::vector<LintFinding> findings = lint(resolve_shader("t", text, "t.frag"));
+  REQUIRE(findings.size() == 2);
+  CHECK(findings[0].line == 6);
+  CHECK(findings[1].line == 7);
+}
+
 TEST_CASE("an overload is found as GLSL's implicit conversions find it") {
   // Only a call that writes its last argument breaks a rule: it stores through a variable index.
   const auto rules = [](const std::string& overloads, const std::string& call) {

@@ -286,12 +286,15 @@ TEST_CASE("a shader's own probe, ES without a precision yet and names that are k
                                          "void main() { c = sin(a) + gl_FragCoord.x; }\n",
                                          "t.frag");
   CHECK_NOTHROW(compile_glsl(frag_coord_as_input(es)));
-  const ShaderSource keyword = resolve_shader("t",
-                                              "#version 300 es\nprecision highp float;\nin float a; out float c;\n"
-                                              "void main() { float buffer = sin(a); c = buffer; }\n",
-                                              "t.frag");
-  CHECK_NOTHROW(compile_glsl(add_probes(keyword).source));
-  CHECK(names(add_probes(keyword), 4, "buffer"));
+  for (const std::string name : {"buffer", "precise"}) {
+    const ShaderSource keyword = resolve_shader("t",
+                                                "#version 300 es\nprecision highp float;\nin float a; out float c;\n"
+                                                "void main() { float " +
+                                                    name + " = sin(a); c = " + name + "; }\n",
+                                                "t.frag");
+    CHECK_NOTHROW(compile_glsl(add_probes(keyword).source));
+    CHECK(names(add_probes(keyword), 4, name));
+  }
   const ShaderSource redeclared = resolve_shader(
       "t", "in vec4 a; in vec4 gl_FragCoord; out vec4 c;\nvoid main() { c = a * gl_FragCoord.x; }\n", "t.frag");
   CHECK_NOTHROW(compile_glsl(frag_coord_as_input(redeclared)));

@@ -200,6 +200,26 @@ TEST_CASE("older and embedded dialects are accepted") {
   CHECK(refusal("#version 300 es\nprecision highp float; in vec4 buffer; out vec4 c; float fma(float a, float b) { "
                 "return a - b; } uniform B { float bitCount; }; void main() { c = buffer * fma(bitCount, "
                 "2.0); }\n") == "accepted");
+  const std::string es300 = "#version 300 es\nprecision highp float; in vec4 a; out vec4 c;\n";
+  // Of macros too.
+  CHECK(refusal(es300 +
+                "#define fma(a, b, c) ((a) * (b) + (c))\n#define buffer a\n#ifndef findMSB\n#define findMSB 2.0\n"
+                "#endif\nvoid main() { c = fma(buffer, buffer, a) * findMSB; }\n") == "accepted");
+  check_refused(es300 + "#define fma(a, b) ((a) * (b))\nvoid main() {\n  c = fma(a, nope);\n}\n", 5, "nope");
+  check_refused(es300 +
+                    "#define fma(a, b) ((a) * (b))\nuniform sampler3D m;\nvoid main() {\n"
+                    "  c = fma(a, texture(m, a.xyz));\n}\n",
+                4, "m");
+  CHECK(refusal(es300 + "struct S { float precise; };\nfloat f(float precise) { return precise; }\nvoid main() {\n"
+                        "  float precise = f(a.x); precise *= 2.0; S s = S(precise); c = vec4(s.precise); }\n") ==
+        "accepted");
+  // By an extension it is a keyword all the same; in ES 310 it is reserved.
+  CHECK(refusal("#version 300 es\n#extension GL_EXT_gpu_shader5 : enable\nprecision highp float; in vec4 a; out vec4 c;"
+                "\nvoid main() { precise vec4 x = a * a; c = x; }\n") == "accepted");
+  check_refused(
+      "#version 310 es\nprecision highp float; out vec4 c;\nvoid main() {\n  float precise = 1.0;\n"
+      "  c = vec4(precise);\n}\n",
+      4, "precise");
   CHECK(refusal("#version 310 es\nprecision mediump float; in vec3 n; layout(location = 0) out vec4 c; void main() { c "
                 "= vec4(n, 1.0); }\n") == "accepted");
   CHECK(refusal("in vec3 n; out vec4 c; void main() { c = vec4(n, 1.0); }\n") == "accepted");

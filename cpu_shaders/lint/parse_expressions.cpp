@@ -1,5 +1,6 @@
 // Expressions of the lint's parser: precedence climbing over GLSL's table of operators (GLSL 4.50 specification, 5.1).
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <functional>
 
@@ -45,6 +46,14 @@ double limit(std::string_view op, const Expression& a, const Expression& b) {
   if (op == "+" || op == "-") result = limit(a) + limit(b);
   if (op == "*") result = limit(a) * limit(b) * (a.type.is_matrix() || b.type.is_matrix() ? 4.0 : 1.0);
   return finite_or_unlimited(result);
+}
+
+// Expression::integer of a op b, which wraps at 32 bits; nothing for operators that constants are seldom made with.
+std::optional<long> integer(std::string_view op, const GlslType& type, long a, long b) {
+  const auto x = static_cast<std::uint32_t>(a), y = static_cast<std::uint32_t>(b);
+  if (!type.is_integer() || !one_of(op, {"+", "-", "*"})) return {};
+  const std::uint32_t result = op == "+" ? x + y : op == "-" ? x - y : x * y;
+  return type.base == Base::int32 ? long{static_cast<std::int32_t>(result)} : long{result};
 }
 
 GlslType literal_type(const std::string& text) {
@@ -225,6 +234,8 @@ ExpressionPtr Parser::binary(int lowest_precedence) {
     made->type = binary_type(made->text, left->type, right->type);
     made->constant = left->constant && right->constant;
     made->limit = limit(made->text, *left, *right);
+    if (left->integer && right->integer)
+      made->integer = integer(made->text, made->type, *left->integer, *right->integer);
     made->operands.push_back(std::move(left));
     made->operands.push_back(std::move(right));
     left = spanning(std::move(made), first);

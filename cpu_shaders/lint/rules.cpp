@@ -195,10 +195,16 @@ std::string double_type(const Expression& e, const Place&) {
   return names_it && e.type.base == Base::float64 ? e.text : "";
 }
 
+// A constant of which no component is 0 or -1.
+bool divides_safely(const Expression& e) {
+  if (e.integer) return *e.integer != 0 && *e.integer != -1;
+  return e.kind == Kind::construct && e.type.is_integer() &&
+         std::all_of(e.operands.begin(), e.operands.end(), [](const ExpressionPtr& o) { return divides_safely(*o); });
+}
+
 std::string division(const Expression& e, const Place&) {
   if (!is_operator(e) || !one_of(e.text, {"/", "/=", "%", "%="}) || !e.type.is_integer()) return "";
-  const auto divisor = e.operands[1]->integer;
-  return divisor && *divisor != 0 && *divisor != -1 ? "" : e.text;
+  return divides_safely(*e.operands[1]) ? "" : e.text;
 }
 
 std::string remainder(const Expression& e, const Place&) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <initializer_list>
 
@@ -195,16 +196,17 @@ std::string double_type(const Expression& e, const Place&) {
   return names_it && e.type.base == Base::float64 ? e.text : "";
 }
 
-// A constant of which no component is 0 or -1.
-bool divides_safely(const Expression& e) {
-  if (e.integer) return *e.integer != 0 && *e.integer != -1;
+// Whether it is a constant of which no component, as an int or a uint, is 0 or the int -1.
+bool divides_safely(const Expression& e, Base as) {
+  if (e.integer) return *e.integer != 0 && (as == Base::uint32 || static_cast<std::int32_t>(*e.integer) != -1);
   return e.kind == Kind::construct && e.type.is_integer() &&
-         std::all_of(e.operands.begin(), e.operands.end(), [](const ExpressionPtr& o) { return divides_safely(*o); });
+         std::all_of(e.operands.begin(), e.operands.end(),
+                     [as](const ExpressionPtr& operand) { return divides_safely(*operand, as); });
 }
 
 std::string division(const Expression& e, const Place&) {
   if (!is_operator(e) || !one_of(e.text, {"/", "/=", "%", "%="}) || !e.type.is_integer()) return "";
-  return divides_safely(*e.operands[1]) ? "" : e.text;
+  return divides_safely(*e.operands[1], e.type.base) ? "" : e.text;
 }
 
 std::string remainder(const Expression& e, const Place&) {

@@ -177,10 +177,12 @@ const std::vector<Samples>& samples() {
       {"division",
        {"int i = 4 / k;", "uint i = 3u / u;", "int i = k; i /= k;", "int i = k / -1;", "uint i = 7u % u;",
         "ivec2 i = ivec2(k) / ivec2(3, 0);", "ivec2 i = ivec2(k) / ivec2(3, k);", "int i = k / (FOUR - 4);",
-        "int i = k / (2 - FOUR + 1);", "int i = k / (65536 * 65536);", "uvec3 i = uvec3(u) / uvec3(uvec2(2, 3), 0);"},
+        "int i = k / (2 - FOUR + 1);", "int i = k / (65536 * 65536);", "int i = k / int(4294967295u);",
+        "uvec3 i = uvec3(u) / uvec3(uvec2(2, 3), 0);"},
        {"int i = k / 4;", "uint i = u % 3u;", "int i = k / FOUR;", "uint i = u / 2u;", "precise float x = a.x / b.x;",
         "ivec2 i = ivec2(k) / ivec2(3, 5);", "const ivec2 n = ivec2(3); ivec2 i = ivec2(k) / n;",
-        "int i = k / (FOUR * FOUR);", "int i = k / (2 * FOUR - 1);", "uvec3 i = uvec3(u) / uvec3(uvec2(2, 3), 4);"}},
+        "int i = k / (FOUR * FOUR);", "int i = k / (2 * FOUR - 1);", "uint i = u / uint(-1);",
+        "uint i = u / 4294967295u;", "uvec3 i = uvec3(u) / uvec3(uvec2(2, 3), 4);"}},
       {"remainder", {"int i = k % 4;", "int i = k; i %= 3;"}, {"uint i = u % 4u;", "int i = k & 3;"}},
   };
   return table;

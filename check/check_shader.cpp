@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "check/shrink.h"
+#include "cpu_shaders/rewrite/exact_names.h"
 #include "cpu_shaders/rewrite/frag_coord.h"
 #include "cpu_shaders/rewrite/make_exact.h"
 #include "raster/row_grid.h"
@@ -50,10 +51,10 @@ class Check {
       return true;
     } catch (const UserError& error) {
       result_.verdict = Verdict::refused;
-      result_.message = error.what();
+      result_.message = as_the_author_names(exact_, error.what());
     } catch (const BackendError& error) {  // of the machine that the others are compared with
       result_.verdict = Verdict::not_run;
-      result_.message = error.what();
+      result_.message = as_the_author_names(exact_, error.what());
     } catch (const std::bad_alloc&) {  // the others would not have memory either
       throw;
     } catch (const std::exception& error) {  // our own mistake: the others are checked all the same
@@ -74,11 +75,10 @@ class Check {
     if (!side_file.empty())
       for (InputRange& range : ranges_in_file(side_file)) ranges_.push_back(std::move(range));
     if (options_.make_exact) {
-      ExactShader exact = make_exact(source_);
-      for (InputRange& range : ranges_) range.name = path_in(exact, range.name);
-      source_ = std::move(exact.source);
-      result_.findings = std::move(exact.left);
-      uses_zero_ = exact.uses_zero;
+      exact_ = make_exact(source_);
+      for (InputRange& range : ranges_) range.name = path_in(exact_, range.name);
+      source_ = exact_.source;
+      result_.findings = exact_.left;
     } else {
       result_.findings = lint(source_);
     }
@@ -90,10 +90,11 @@ class Check {
     uses_frag_coord_ = reflection.uses_frag_coord;
     group_ = reflection.uses_derivatives ? 4 : 1;
     // What --make-exact added is none of the author's inputs.
-    if (uses_zero_) std::erase_if(reflection.uniforms, [](const auto& uniform) { return uniform.name == kExactZero; });
+    if (exact_.uses_zero)
+      std::erase_if(reflection.uniforms, [](const auto& uniform) { return uniform.name == kExactZero; });
     use_block_names(reflection, ranges_);
     table_ = generate_rows(reflection, ranges_, options_.generate);
-    if (!uses_zero_) return;
+    if (!exact_.uses_zero) return;
     Values zero;
     zero.name = kExactZero;
     zero.bits = {0};
@@ -118,9 +119,9 @@ class Check {
         bits_differ |= !check.comparison.rows.empty();
         result_.max_ulp = std::max(result_.max_ulp, check.comparison.max_ulp);
       } catch (const BackendError& error) {
-        check.not_run = error.what();
+        check.not_run = as_the_author_names(exact_, error.what());
       } catch (const UserError& error) {  // its driver takes less than the first backend does
-        check.not_run = error.what();
+        check.not_run = as_the_author_names(exact_, error.what());
         ++refused;
       }
       beyond.resize(i + 1);
@@ -208,9 +209,15 @@ class Check {
     if (result_.counterexample) as_the_author_wrote(*result_.counterexample);
   }
 
-  // Without the inputs that were added.
+  // Without the inputs that were added, and by the author's names.
   void as_the_author_wrote(Counterexample& example) const {
-    if (uses_zero_) std::erase_if(example.values.uniforms, [](const Values& v) { return v.name == kExactZero; });
+    if (exact_.uses_zero) std::erase_if(example.values.uniforms, [](const Values& v) { return v.name == kExactZero; });
+    const auto name = [this](std::string& text) { text = as_the_author_names(exact_, std::move(text)); };
+    for (std::vector<Values>* list : {&example.values.inputs, &example.values.uniforms})
+      for (Values& values : *list) name(values.name);
+    name(example.difference.output);
+    name(example.first_line.note);
+    if (example.first_line.difference) name(example.first_line.difference->statement.what);
     if (!uses_frag_coord_) return;
     for (Values& values : example.values.inputs)
       if (values.name == kRowFragCoord) values.name = kFragCoord;
@@ -340,7 +347,8 @@ class Check {
   std::vector<InputRange> ranges_;
   ValueTable table_;
   std::size_t group_ = 1;  // rows that belong together: a quad where derivatives are taken
-  bool uses_frag_coord_ = false, uses_zero_ = false;
+  bool uses_frag_coord_ = false;
+  ExactShader exact_;                     // with --make-exact
   std::optional<std::uint64_t> allowed_;  // distance in ULP that does not count as a difference; none: every bit does
   CheckedShader result_;
 };

@@ -63,9 +63,9 @@ class MakeExact : public Listener {
   MakeExact(const TokenList& list, ExactScope scope)
       : edits_(list), functions_(scope == ExactScope::written_out), list_(list), needed_(list), scope_(scope) {}
 
-  void rename(const std::set<std::string>& names) {
+  void rename(const std::map<std::string, std::string>& names) {
     for (std::size_t i = 0; i < list_.tokens.size(); ++i)
-      if (names.count(list_.tokens[i].text) != 0) edits_.replace(i, list_.tokens[i].text + "_name");
+      if (const auto found = names.find(list_.tokens[i].text); found != names.end()) edits_.replace(i, found->second);
   }
 
   void expression(const Expression& e, Role role) override {
@@ -442,11 +442,18 @@ ExactShader make_exact(const ShaderSource& source, ExactScope scope) {
   const auto stands_before = [&](const std::string& file) {
     return scope == ExactScope::written_out ? exact_file(file) == "written_out" : !exact_file(file).empty();
   };
+  std::set<std::string> own, taken;
+  for (const Token& token : tokens.tokens)
+    if (token.kind == Token::Kind::name) own.insert(token.text);
   ExactShader result;
-  const auto rewrite_and_rename = [&](const std::set<std::string>& names) {
+  const auto give_way = [&](const std::set<std::string>& names) {
+    for (const std::string& name : names) {
+      std::string& now = result.renamed[name] = name + "_name";
+      while (own.count(now) != 0) now += "_name";
+    }
+  };
+  const auto rewrite_and_rename = [&] {
     MakeExact rewrite(tokens, scope);
-    result.renamed = new_keywords(tokens, source);
-    result.renamed.insert(names.begin(), names.end());
     rewrite.rename(result.renamed);
     Parser(tokens, rewrite).run();
     result.source = source;
@@ -465,29 +472,22 @@ ExactShader make_exact(const ShaderSource& source, ExactScope scope) {
     return before;
   };
   // The shader's own names give way to those of what comes to stand before it.
-  std::set<std::string> own, taken;
+  std::set<std::string> candidates = own;
   for (const Token& token : tokens.tokens)
-    if (token.kind == Token::Kind::name) own.insert(token.text);
-  for (const Token& token : tokens.tokens)
-    if (stands_before(tokens.files[static_cast<std::size_t>(token.file)])) own.erase(token.text);
-  const std::string before = rewrite_and_rename({});
-  for (const std::string& name : own)
+    if (stands_before(tokens.files[static_cast<std::size_t>(token.file)])) candidates.erase(token.text);
+  give_way(new_keywords(tokens, source));
+  const std::string before = rewrite_and_rename();
+  for (const std::string& name : candidates)
     if ((name.rfind("exact_", 0) == 0 || name.rfind("written_", 0) == 0) && find_word(before, name) != before.npos)
       taken.insert(name);
-  if (!taken.empty()) rewrite_and_rename(taken);
+  give_way(taken);
+  if (!taken.empty()) rewrite_and_rename();
   try {
     result.left = lint(result.source);
   } catch (const UserError& error) {
     throw UserError(std::string(error.what()) + " (in the shader as rewritten for exactness)");
   }
   return result;
-}
-
-std::string path_in(const ExactShader& exact, std::string path) {
-  for (const std::string& name : exact.renamed)
-    for (std::size_t at = find_word(path, name); at != path.npos; at = find_word(path, name, at + 1))
-      path.insert(at + name.size(), "_name");
-  return path;
 }
 
 }  // namespace twinshade

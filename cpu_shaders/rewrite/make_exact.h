@@ -3,7 +3,7 @@
 // the same bits on every machine, though not the same function values that some driver has for sin, say.
 #pragma once
 
-#include <set>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,11 +18,11 @@ namespace twinshade {
 inline constexpr const char* kExactZero = "exact_zero";
 
 struct ExactShader {
-  ShaderSource source;            // GLSL 450; every line keeps its file and number
-  bool changed = false;           // something was in the scope
-  bool uses_zero = false;         // it has the uniform kExactZero
-  std::vector<LintFinding> left;  // what is still outside the exact dialect, where the author wrote it
-  std::set<std::string> renamed;  // the author's names that gave way to others: NAME is now NAME_name
+  ShaderSource source;                         // GLSL 450; every line keeps its file and number
+  bool changed = false;                        // something was in the scope
+  bool uses_zero = false;                      // it has the uniform kExactZero
+  std::vector<LintFinding> left;               // what is still outside the exact dialect, where the author wrote it
+  std::map<std::string, std::string> renamed;  // the author's names that gave way to others, and what they are now
 };
 
 enum class ExactScope {
@@ -34,8 +34,5 @@ enum class ExactScope {
 
 // UserError where the shader is not valid GLSL.
 ExactShader make_exact(const ShaderSource& source, ExactScope scope = ExactScope::everything);
-
-// A GLSL path of the author's ("light.power") in the result.
-std::string path_in(const ExactShader& exact, std::string path);
 
 }  // namespace twinshade

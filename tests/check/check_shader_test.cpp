@@ -53,6 +53,20 @@ TEST_CASE("an input keeps its range where its name gives way to one that --make-
   CHECK(shader.verdict == Verdict::same_bits);
 }
 
+TEST_CASE("the report has the author's names for what gave way to others") {
+  const CheckedShader shader = checked_exact(
+      "#version 330\n// @input patch 7.8e-31..7.9e-31\n// @input exact_add 9e-13..9.1e-13\n// @input z 1e30..1.1e30\n"
+      "in float patch; uniform float exact_add; in float z; out vec4 buffer;\n"
+      "void main() {\n  vec4 sample = vec4(patch * exact_add * z + 0.0);\n  buffer = sample;\n}\n");
+  CAPTURE(shader.message);
+  REQUIRE(shader.counterexample.has_value());
+  CHECK(shader.counterexample->values.inputs.at(0).name == "patch");
+  CHECK(shader.counterexample->values.uniforms.at(0).name == "exact_add");
+  CHECK(shader.counterexample->difference.output == "buffer.x");
+  REQUIRE(shader.counterexample->first_line.difference.has_value());
+  CHECK(shader.counterexample->first_line.difference->statement.what.find("_name") == std::string::npos);
+}
+
 TEST_CASE("an unknown input is answered with the author's own") {
   const CheckedShader shader = checked_exact("// @input nonsense 0..1\n" + kShader);
   CHECK(shader.verdict == Verdict::refused);

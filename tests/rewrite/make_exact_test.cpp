@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "cpu_shaders/rewrite/exact_names.h"
 #include "cpu_shaders/rewrite/make_exact.h"
 #include "cpu_shaders/rewrite/probe.h"
 #include "cpu_shaders/translate/compile_glsl.h"
@@ -203,6 +204,18 @@ TEST_CASE("written out are division, roots and limits alone, by component, withi
   CHECK(text.find("= written_divide(") != std::string::npos);
   CHECK(text.find("exact_normalize (") != std::string::npos);  // a name that this scope brings no function of
   CHECK(text.find("exact_normalize_name") == std::string::npos);
+}
+
+TEST_CASE("names that give way take no other name of the shader") {
+  const ShaderSource source = resolve_shader("t",
+                                             "#version 330\nuniform float sample; out float r;\nvoid main() {\n"
+                                             "  float sample_name = 2.0;\n  r = sample / sample_name;\n}\n",
+                                             "t.frag");
+  const ExactShader exact = make_exact(source);
+  CHECK_NOTHROW(compile_glsl(exact.source));
+  CHECK(plain_body(exact).find("(sample_name_name,sample_name)") != std::string::npos);
+  CHECK(path_in(exact, "sample") == "sample_name_name");
+  CHECK(as_the_author_names(exact, "sample_name_name.x, sample_name") == "sample.x, sample_name");
 }
 
 TEST_CASE("a shader's own names that are those of exact functions are given way to, included ones are called") {

@@ -171,6 +171,10 @@ TEST_CASE("triangles without area or with infinite corners are never hit") {
 TEST_CASE("a scene too far out for Embree's floats is refused by name, what no triangle uses is not") {
   Scene scene = floor_scene();
   scene.positions.push_back(glm::vec3(1e20f));
+  scene.normals.push_back({0, 1, 0});
+  scene.tangents.push_back({1, 0, 0, 1});
+  scene.uvs.emplace_back(0);
+  scene.lightmap_uvs.emplace_back(0);
   CHECK(RayScene(scene).occluded({0, 2, 0}, {0, -1, 0}));
   add_rectangle(scene, {2e15f, 0, 0}, {1e15f, 0, 0}, {0, 0, -1e15f}, {0, 0}, 1);
   std::string refusal;

@@ -170,7 +170,8 @@ TEST_CASE("names that became keywords after the shader's version are compared, a
   const std::string plain = folder.file("plain.frag", "in float x; out float y;\nvoid main() { y = x + x; }\n");
   const Run run = run_twinshade({"check", named, plain, "--on", "cpu,egl", "--no-timing", "--json", "-"});
   CHECK_MESSAGE(run.code == 0, run.err);
-  for (const auto& shader : run.json()["shaders"]) CHECK(shader["verdict"] == "same bits");
+  const nlohmann::json json = run.json();
+  for (const auto& shader : json["shaders"]) CHECK(shader["verdict"] == "same bits");
 }
 
 TEST_CASE("a backend whose driver refuses the shader is named, and the others' verdict stands") {

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "base/file.h"
+#include "base/sanitizers.h"
 #include "tests/scenes/image_writers.h"
 #include "tests/scenes/temporary_folder.h"
 
@@ -136,7 +137,7 @@ TEST_CASE("PNGs whose chunks are whole but damaged within are refused, and libpn
           [&] { message = user_error([&] { memory ? decode_image_memory(bytes, file) : decode_image_file(file); }); });
       INFO(damage.first << ": " << message << " | " << noise);
       CHECK(message.find("damaged.png: cannot be read as an image") != std::string::npos);
-      CHECK(noise.empty());
+      if (!kShadowMemory) CHECK(noise.empty());  // sanitizers keep their stderr, and so do libraries there
     }
   }
 }

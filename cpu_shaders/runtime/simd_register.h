@@ -176,6 +176,11 @@ TWINSHADE_INLINE Float4 larger(Float4 x, Float4 y) {
 #endif
 }
 
+#if defined(__SSE4_1__)
+TWINSHADE_INLINE Int4 lesser(Int4 x, Int4 y) { return (Int4)_mm_min_epi32((__m128i)x, (__m128i)y); }
+TWINSHADE_INLINE Int4 larger(Int4 x, Int4 y) { return (Int4)_mm_max_epi32((__m128i)x, (__m128i)y); }
+#endif
+
 // --- masks (lanes 0 or -1)
 
 TWINSHADE_INLINE bool any(Int4 m) {
@@ -220,6 +225,8 @@ TWINSHADE_INLINE Int8 to_int(Float8 x) {
 }
 TWINSHADE_INLINE Float8 lesser(Float8 x, Float8 y) { return y != y ? x : (Float8)_mm256_min_ps((__m256)x, (__m256)y); }
 TWINSHADE_INLINE Float8 larger(Float8 x, Float8 y) { return y != y ? x : (Float8)_mm256_max_ps((__m256)x, (__m256)y); }
+TWINSHADE_INLINE Int8 lesser(Int8 x, Int8 y) { return (Int8)_mm256_min_epi32((__m256i)x, (__m256i)y); }
+TWINSHADE_INLINE Int8 larger(Int8 x, Int8 y) { return (Int8)_mm256_max_epi32((__m256i)x, (__m256i)y); }
 template <class V>
 TWINSHADE_INLINE V blend(Int8 lanes, V x, V y) {
   return (V)_mm256_blendv_ps((__m256)y, (__m256)x, (__m256)lanes);
@@ -279,6 +286,12 @@ TWINSHADE_INLINE Float16 lesser(Float16 x, Float16 y) {
 }
 TWINSHADE_INLINE Float16 larger(Float16 x, Float16 y) {
   return y != y ? x : (Float16)_mm512_maskz_max_ps(0xffff, (__m512)x, (__m512)y);
+}
+TWINSHADE_INLINE Int16 lesser(Int16 x, Int16 y) {
+  return (Int16)_mm512_maskz_min_epi32(0xffff, (__m512i)x, (__m512i)y);
+}
+TWINSHADE_INLINE Int16 larger(Int16 x, Int16 y) {
+  return (Int16)_mm512_maskz_max_epi32(0xffff, (__m512i)x, (__m512i)y);
 }
 #endif
 

@@ -47,7 +47,7 @@ void Batch::clear() {
   count_ = left;
 }
 
-void Batch::shade(const LocalPrimitive* primitives, StageClock& clock) {
+void Batch::shade(const LocalPrimitive* primitives, StageTicks& ticks) {
   // Whole vectors of 16: dead invocations repeat the last one.
   const std::uint32_t count = shaded(), padded = (count + 15) / 16 * 16;
   if (!quads()) std::fill_n(live_, count, ~0u);
@@ -85,7 +85,7 @@ void Batch::shade(const LocalPrimitive* primitives, StageClock& clock) {
     for (std::uint32_t r = 0; r < run_count; ++r)
       std::fill(primitive_id_.data() + runs_[r].first, primitive_id_.data() + end_of_run(r, padded),
                 primitives[runs_[r].local].primitive);
-  clock.lap(Stage::interpolate);
+  ticks.lap(Stage::interpolate);
 
   ShadeCall call;
   call.count = padded;
@@ -101,7 +101,7 @@ void Batch::shade(const LocalPrimitive* primitives, StageClock& clock) {
   call.ahead = draw_.bound.ahead.data();
   call.ahead_count = std::uint32_t(draw_.bound.ahead.size());
   draw_.entry.shade(draw_.bound.data(), call);
-  clock.lap(Stage::shade);
+  ticks.lap(Stage::shade);
 }
 
 float Batch::frag_depth(std::uint32_t k) const {

@@ -17,6 +17,9 @@ inline constexpr std::uint32_t kWindow = 16;
 // Edge values are cut off here: farther from 0 than any step within a window (15 * (|a| + |b|) < 2^29) can lead back.
 inline constexpr std::int64_t kEdgeLimit = std::int64_t{1} << 30;
 
+// The bits of 1.0f, the depth where nothing was drawn.
+inline constexpr std::int32_t kFarthest = 0x3f800000;
+
 // A number of each edge. The fourth lane means nothing.
 using Edges = Register<std::int64_t, 4>;
 using Edges32 = Register<std::int32_t, 4>;
@@ -122,7 +125,9 @@ TWINSHADE_INLINE void for_each_covered_block(const RasterTriangle& t, const Cove
         if (at_border)
           inmost = inmost | (I(std::int32_t(tile.frame_width - 1 - tile.x - x - k % 4 * 4)) - I::load(kPixelX)) |
                    (I(std::int32_t(tile.frame_height - 1 - tile.y - y - k / 4 * 4)) - I::load(kPixelY));
-        if (all_negative(inmost)) continue;
+        // Where a mask is a register's the branch costs more than it spares.
+        if constexpr (!BlockInts::whole)
+          if (all_negative(inmost)) continue;
         use(window_places, std::size_t{k}, inmost);
       }
     }
@@ -144,11 +149,14 @@ void cover_all(const CoverTile& tile) {
     for_each_covered_block(
         *tile.triangles[which], tile, places, [&](const auto& window, std::size_t block, I inmost) TWINSHADE_LAMBDA {
           const std::size_t pixel = window.pixel(block);
-          const F depth = depth_at(window.x(block), window.y(block)), old = F::load(depths + pixel);
-          // Depths are from +0 to 1: their bits compare as they do.
-          const BlockMask nearer = (~inmost & (depth.as<std::int32_t>() - old.as<std::int32_t>())) < I(0);
-          blend(nearer, depth, old).store(depths + pixel);
-          blend(nearer, local, U::load(visible + pixel)).store(visible + pixel);
+          // Depths are from +0 to 1: their bits compare as they do. Where the triangle is not they become 1, nearer than
+          // none that is stored, so that what is stored is a minimum: the triangle that covers the block next waits for
+          // it, and would wait longer for a mask.
+          const I depth = blend(inmost < I(0), I(kFarthest),
+                                depth_at(window.x(block), window.y(block)).template as<std::int32_t>());
+          const I old = F::load(depths + pixel).template as<std::int32_t>();
+          lanes_min(depth, old).template as<float>().store(depths + pixel);
+          blend(depth < old, local, U::load(visible + pixel)).store(visible + pixel);
         });
   }
 }

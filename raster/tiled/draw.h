@@ -31,7 +31,7 @@ struct Draw {
 };
 
 // Invocations are shaded this many at a time, whatever the size of triangles.
-inline constexpr std::uint32_t kBatchSize = 256;
+inline constexpr std::uint32_t kBatchSize = 512;
 
 // Invocations going through interpolation and the shader together.
 class Batch {
@@ -50,7 +50,7 @@ class Batch {
 
   // Fills inputs, runs the shader on kBatchSize invocations or all that there are, stores nothing yet. Pads with dead
   // ones to whole vectors first.
-  void shade(const LocalPrimitive* primitives, StageClock& clock);
+  void shade(const LocalPrimitive* primitives, StageTicks& ticks);
   // Keeps what was added beyond kBatchSize.
   void clear();
 
@@ -94,7 +94,7 @@ class TileWorker {
  public:
   explicit TileWorker(const Draw& draw);
   void draw_tile(std::uint32_t tile);
-  StageClock& clock() { return clock_; }
+  StageTicks& ticks() { return ticks_; }
   std::uint32_t tiles_shaded() const { return tiles_shaded_; }
 
  private:
@@ -111,7 +111,7 @@ class TileWorker {
 
   const Draw& draw_;
   Batch batch_;
-  StageClock clock_;
+  StageTicks ticks_;
   std::uint32_t tiles_shaded_ = 0;
 
   CoverTile tile_{};
@@ -120,9 +120,11 @@ class TileWorker {
   // Of the tile's pixels in memory order, when shading is done; clear where nothing is visible.
   AlignedArray<float> color_;                 // RGBA; room for a pixel more, for what is not stored
   AlignedArray<std::uint32_t> primitive_id_;  // if DrawOptions::visibility
+  // Room for as many as the fullest tile so far had triangles.
   std::vector<const RasterTriangle*> triangles_;
   std::vector<std::uint32_t> locals_;
   std::vector<LocalPrimitive> primitives_;
+  std::uint32_t primitive_count_ = 0;
 
   std::vector<VisibleBlock> found_, sorted_;  // shade_pass.cpp
   std::vector<std::uint32_t> place_of_local_;

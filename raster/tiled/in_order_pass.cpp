@@ -27,17 +27,17 @@ void TileWorker::shade_in_order() {
     }
   }
   if (batch_.count() > 0) resolve_in_order();
-  clock_.lap(Stage::raster);
+  ticks_.lap(Stage::raster);
   if (draw_.options.visibility) name_primitives();
 }
 
 void TileWorker::resolve_in_order() {
-  clock_.lap(Stage::raster);
-  batch_.shade(primitives_.data(), clock_);
+  ticks_.lap(Stage::raster);
+  batch_.shade(primitives_.data(), ticks_);
   batch_.test_depth(tile_.depth, tile_.visible);
   batch_.store(color_.data());
   batch_.clear();
-  clock_.lap(Stage::store);
+  ticks_.lap(Stage::store);
 }
 
 void TileWorker::name_primitives() {

@@ -9,7 +9,7 @@ namespace twinshade::tiled {
 // Blocks of one primitive side by side, so that interpolation broadcasts its vertex data: a counting sort. Primitive
 // ids are known here, and which blocks will not be filled with colour.
 void TileWorker::collect_visible() {
-  place_of_local_.assign(primitives_.size() + 1, 0);
+  place_of_local_.assign(primitive_count_ + 1, 0);
   found_.resize(std::size_t(tile_.size) * tile_.size);
   const std::uint32_t count = draw_.kernels.collect_visible({&tile_, found_.data(), place_of_local_.data(),
                                                              draw_.options.visibility ? primitive_id_.data() : nullptr,
@@ -25,7 +25,7 @@ void TileWorker::shade_visible() {
     draw_.kernels.cover(tile_);
   }
   collect_visible();
-  clock_.lap(Stage::raster);
+  ticks_.lap(Stage::raster);
 
   for (std::size_t taken = 0; taken < sorted_.size();) {
     taken += batch_.add(&sorted_[taken], sorted_.size() - taken);
@@ -35,10 +35,10 @@ void TileWorker::shade_visible() {
 }
 
 void TileWorker::shade_batch() {
-  batch_.shade(primitives_.data(), clock_);
+  batch_.shade(primitives_.data(), ticks_);
   batch_.store(color_.data());
   batch_.clear();
-  clock_.lap(Stage::store);
+  ticks_.lap(Stage::store);
 }
 
 }  // namespace twinshade::tiled

@@ -1,8 +1,20 @@
 #include <algorithm>
+#include <cstring>
 
 #include "raster/tiled/draw.h"
 
 namespace twinshade::tiled {
+namespace {
+
+// By lines of memory: g++ at -O2 fills one number at a time, which is a fiftieth of a cheap frame.
+void clear_depth(float* depth, std::size_t pixels) {
+  constexpr std::size_t kAtOnce = 16;
+  alignas(64) float ones[kAtOnce];
+  std::fill_n(ones, kAtOnce, 1.0f);
+  for (std::size_t i = 0; i < pixels; i += kAtOnce) std::memcpy(depth + i, ones, sizeof ones);
+}
+
+}  // namespace
 
 TileWorker::TileWorker(const Draw& draw)
     : draw_(draw),
@@ -20,11 +32,11 @@ TileWorker::TileWorker(const Draw& draw)
 }
 
 void TileWorker::draw_tile(std::uint32_t tile) {
-  clock_.start();
+  ticks_.start();
   tile_.x = tile % draw_.grid.columns * tile_.size;
   tile_.y = tile / draw_.grid.columns * tile_.size;
   const std::size_t pixels = std::size_t(tile_.size) * tile_.size;
-  std::fill_n(tile_.depth, pixels, 1.0f);
+  clear_depth(tile_.depth, pixels);
   std::fill_n(tile_.visible, pixels, kNotVisible);
   batch_.begin_tile(tile_.x, tile_.y);
   gather_triangles(tile);
@@ -39,31 +51,43 @@ void TileWorker::draw_tile(std::uint32_t tile) {
     std::fill_n(primitive_id_.data(), pixels, kNoPrimitive);
   }
   store_tile();
-  clock_.lap(Stage::store);
+  ticks_.lap(Stage::store);
 }
 
-// The tile's bin, and one LocalPrimitive for what counts as one when pixels are shaded.
+// The tile's bin, and one LocalPrimitive for what counts as one when pixels are shaded. Triangles are asked for before
+// any is read: they lie where their chunks have them, not tile by tile.
 void TileWorker::gather_triangles(std::uint32_t tile) {
-  triangles_.clear();
-  locals_.clear();
-  primitives_.clear();
   const Geometry& geometry = draw_.geometry;
-  for (std::uint32_t i = geometry.bin_begin[tile]; i < geometry.bin_begin[tile + 1]; ++i) {
-    const TriangleRef ref = geometry.bins[i];
-    const TriangleChunk& chunk = geometry.chunks[ref.chunk()];
-    const RasterTriangle& triangle = chunk.triangles[ref.index()];
-    triangles_.push_back(&triangle);
-    if (draw_.native())
-      primitives_.push_back(
-          {triangle.primitive, &chunk.native[ref.index()], chunk.clipped_inputs.data(), triangle.front_facing});
-    else if (primitives_.empty() || primitives_.back().primitive != triangle.primitive)
-      primitives_.push_back({triangle.primitive, nullptr, nullptr, 0});
-    locals_.push_back(std::uint32_t(primitives_.size() - 1));
+  const TriangleRef* const refs = geometry.bins.data() + geometry.bin_begin[tile];
+  const std::uint32_t count = geometry.bin_begin[tile + 1] - geometry.bin_begin[tile];
+  if (count > triangles_.size()) {
+    triangles_.resize(count);
+    locals_.resize(count);
+    primitives_.resize(count);
   }
-  tile_.triangles = triangles_.data();
-  tile_.locals = locals_.data();
-  tile_.count = std::uint32_t(triangles_.size());
+  const RasterTriangle** const triangles = triangles_.data();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    triangles[i] = &geometry.chunks[refs[i].chunk()].triangles[refs[i].index()];
+    __builtin_prefetch(triangles[i]);
+  }
+  std::uint32_t* const locals = locals_.data();
+  LocalPrimitive* next = primitives_.data();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const RasterTriangle& triangle = *triangles[i];
+    if (draw_.native()) {
+      const TriangleChunk& chunk = geometry.chunks[refs[i].chunk()];
+      *next++ = {triangle.primitive, &chunk.native[refs[i].index()], chunk.clipped_inputs.data(),
+                 triangle.front_facing};
+    } else if (i == 0 || next[-1].primitive != triangle.primitive) {
+      *next++ = {triangle.primitive, nullptr, nullptr, 0};
+    }
+    locals[i] = std::uint32_t(next - primitives_.data()) - 1;
+  }
+  tile_.triangles = triangles;
+  tile_.locals = locals;
+  tile_.count = count;
   tile_.primitives = primitives_.data();
+  primitive_count_ = std::uint32_t(next - primitives_.data());
 }
 
 }  // namespace twinshade::tiled

@@ -37,7 +37,7 @@ StageMilliseconds draw_frame(const Draw& draw, std::vector<std::unique_ptr<TileW
   set_up_and_bin(draw.bundle, draw.bound, draw.options.attributes, draw.kernels, draw.grid, draw.geometry);
   clock.lap(Stage::bin);
 
-  for (const auto& worker : workers) worker->clock().reset();
+  for (const auto& worker : workers) worker->ticks().reset();
   StageClock tiles;
   tiles.start();
   if (draw.module.has_side_effects) {  // what the shader writes must not depend on which tile comes first
@@ -52,7 +52,7 @@ StageMilliseconds draw_frame(const Draw& draw, std::vector<std::unique_ptr<TileW
   StageMilliseconds stages = clock.total(), share{};
   double all = 0;
   for (const auto& worker : workers)
-    for (std::size_t i = 0; i < kStageCount; ++i) share[i] += worker->clock().total()[i];
+    for (std::size_t i = 0; i < kStageCount; ++i) share[i] += double(worker->ticks().total()[i]);
   for (const double part : share) all += part;
   const double wall = tiles.total()[std::size_t(Stage::store)];
   for (std::size_t i = 0; i < kStageCount && all > 0; ++i) stages[i] += wall * share[i] / all;

@@ -41,6 +41,7 @@ class Interpolator {
   TWINSHADE_INLINE void run() {
     find_centers();
     for (std::uint32_t r = 0; r < call_.run_count; ++r) {
+      if (r + 2 < call_.run_count) ask_for_vertices(call_.primitives[call_.runs[r + 2].local].primitive);
       const std::uint32_t begin = call_.runs[r].first,
                           end = r + 1 < call_.run_count ? call_.runs[r + 1].first : call_.count;
       const LocalPrimitive& primitive = call_.primitives[call_.runs[r].local];
@@ -59,6 +60,18 @@ class Interpolator {
   }
 
  private:
+  // Before they are read: runs are short, and their vertices lie anywhere.
+  TWINSHADE_INLINE void ask_for_vertices(std::uint32_t primitive) const {
+    const VertexData& vertices = *call_.vertices;
+    for (int v = 0; v < 3; ++v) {
+      const std::size_t vertex = vertices.indices[std::size_t(primitive) * 3 + std::size_t(v)];
+      const float* const inputs = vertices.inputs + vertex * vertices.input_components;
+      __builtin_prefetch(vertices.clip_positions + vertex * 4);
+      __builtin_prefetch(inputs);
+      __builtin_prefetch(inputs + vertices.input_components);
+    }
+  }
+
   // From the order of pixels in a tile's memory (kernels.h).
   TWINSHADE_INLINE void find_centers() {
     const U tile_x(call_.tile_x), tile_y(call_.tile_y), superblock_mask((1u << call_.superblocks_log) - 1);
@@ -86,24 +99,42 @@ class Interpolator {
     const std::uint32_t* index = vertices.indices + std::size_t(primitive.primitive) * 3;
     const float* row[3];
     for (int v = 0; v < 3; ++v) row[v] = vertices.inputs + std::size_t(index[v]) * component_count;
+    if (end - begin <= kWidth) return exact_vector<built_ins>(triangle, scale_x, scale_y, begin, row);
     for (; begin < end; begin += kPoints) {
       const std::uint32_t count = end - begin < kPoints ? end - begin : kPoints;
       alignas(64) R weights[3][kPoints];
-      for (std::uint32_t k = 0; k < count; k += kWidth)
-        exact_points<built_ins>(triangle, scale_x, scale_y, begin + k, weights, k);
+      for (std::uint32_t k = 0; k < count; k += kWidth) {
+        const Weights w = exact_weights<built_ins>(triangle, scale_x, scale_y, begin + k);
+        for (int v = 0; v < 3; ++v) w.of[v].store(weights[v] + k);
+      }
       for (std::uint32_t c = 0; c < component_count; ++c) exact_input(c, row, begin, count, weights);
     }
   }
 
+  // Runs are short, most of them: their weights need not be stored.
   template <bool built_ins>
-  TWINSHADE_INLINE void exact_points(const ExactTriangle<F>& triangle, const F& scale_x, const F& scale_y,
-                                     std::uint32_t i, R (&weights)[3][kPoints], std::uint32_t k) {
+  TWINSHADE_INLINE void exact_vector(const ExactTriangle<F>& triangle, const F& scale_x, const F& scale_y,
+                                     std::uint32_t begin, const float* const (&row)[3]) {
+    const Weights w = exact_weights<built_ins>(triangle, scale_x, scale_y, begin);
+    R* to = inputs_ + begin;
+    for (std::uint32_t c = 0; c < call_.vertices->input_components; ++c, to += call_.stride) {
+      if (call_.interpolation[c] == kSmooth)
+        ((F(R(row[0][c])) * w.of[0] + F(R(row[1][c])) * w.of[1]) + F(R(row[2][c])) * w.of[2]).store(to);
+      else
+        F(flat_value<R>(row[2][c], call_.scalars[c])).store(to);
+    }
+  }
+
+  // Of the three vertices.
+  struct Weights {
+    F of[3];
+  };
+
+  template <bool built_ins>
+  TWINSHADE_INLINE Weights exact_weights(const ExactTriangle<F>& triangle, const F& scale_x, const F& scale_y,
+                                         std::uint32_t i) {
     const F x = F::load(center_x_ + i), y = F::load(center_y_ + i);
     const ExactPoint<F> p = triangle.at(x * scale_x - F(R(1)), y * scale_y - F(R(1)));
-    const F r = F(R(1)) / p.sum;
-    (p.e0 * r).store(weights[0] + k);
-    (p.e1 * r).store(weights[1] + k);
-    (p.e2 * r).store(weights[2] + k);
     if constexpr (built_ins) {
       if (frag_coord_) {
         p.depth().store(frag_coord_ + 2 * std::size_t(call_.stride) + i);
@@ -111,6 +142,8 @@ class Interpolator {
       }
       if (call_.front_facing) select(p.w > F(R(0)), U(~0u), U(0u)).store(call_.front_facing + i);
     }
+    const F r = F(R(1)) / p.sum;
+    return {{p.e0 * r, p.e1 * r, p.e2 * r}};
   }
 
   TWINSHADE_INLINE void exact_input(std::uint32_t component, const float* const (&row)[3], std::uint32_t begin,

@@ -160,20 +160,27 @@ TWINSHADE_FUNCTION void transpose_blocks(V (&rows)[W]) {
 // --- several floats of a texel
 
 // What filters of several floats are given: the taps of one sum of four texels, or of the sum of two such sums, and
-// their weights, in memory.
-template <int W, int T>
+// their weights, in memory. In pairs: each right texel lies `to_right` floats after the left one, and the left ones'
+// places alone are there.
+template <int W, int T, bool pairs = false>
 struct TapTable {
-  static_assert(T == 4 || T == 8);
+  static_assert(T == 4 || (T == 8 && !pairs));
   alignas(64) std::uint32_t at[T][W];
   alignas(64) float weight[T][W];
+  std::ptrdiff_t to_right;
 
-  TWINSHADE_INLINE explicit TapTable(const Taps<W>& taps) requires(T == 4) { put(taps, 0); }
-  TWINSHADE_INLINE TapTable(const Taps<W>& low, const Taps<W>& high) requires(T == 8) {
+  TWINSHADE_INLINE explicit TapTable(const Taps<W>& taps, std::ptrdiff_t right = 0) requires(T == 4) : to_right(right) {
+    put(taps, 0);
+  }
+  TWINSHADE_INLINE TapTable(const Taps<W>& low, const Taps<W>& high) requires(T == 8) : to_right(0) {
     put(low, 0);
     put(high, 4);
   }
 
-  TWINSHADE_INLINE bool same_for_all_lanes() const {
+  // In twos of floats, from the texture's first or, of a right texel of a pair, from that after it.
+  TWINSHADE_INLINE std::size_t place(int tap, int lane) const { return at[pairs ? tap & ~1 : tap][lane]; }
+
+  TWINSHADE_INLINE bool same_for_all_lanes() const requires(!pairs) {
     using U = Simd<std::uint32_t, W>;
     U differ(0u);
     unrolled<T>([&](auto tap) TWINSHADE_LAMBDA { differ = differ | (U::load(at[tap]) ^ U(at[tap][0])); });
@@ -182,7 +189,12 @@ struct TapTable {
 
  private:
   TWINSHADE_INLINE void put(const Taps<W>& taps, int first) {
-    store_places(taps.at, at + first);
+    if constexpr (pairs) {
+      taps.at.x.store(at[first]);
+      taps.at.z.store(at[first + 2]);
+    } else {
+      store_places(taps.at, at + first);
+    }
     taps.weight.x.store(weight[first]);
     taps.weight.y.store(weight[first + 1]);
     taps.weight.z.store(weight[first + 2]);
@@ -199,12 +211,12 @@ TWINSHADE_FUNCTION Register<float, K> first_lanes(const V& lanes) {
 }
 
 // Floats first .. first + K - 1 of a lane's texels, weighted and summed in the order of the GLSL. at: as TapTable has
-// it.
+// it, from where left texels and right ones begin.
 template <int K, int T, class Weight>
-TWINSHADE_FUNCTION Register<float, K> weighted_sum(const float* texels, const std::size_t (&at)[T],
+TWINSHADE_FUNCTION Register<float, K> weighted_sum(const float* const (&from)[2], const std::size_t (&at)[T],
                                                    const Weight (&weight)[T], int first) {
   const auto product = [&](int tap) TWINSHADE_LAMBDA {
-    return registers::load<K>(texels + at[tap] * 2 + first) * first_lanes<K>(weight[tap]);
+    return registers::load<K>(from[tap % 2] + at[tap] * 2 + first) * first_lanes<K>(weight[tap]);
   };
   const auto four = [&](int tap) TWINSHADE_LAMBDA {
     return (product(tap) + product(tap + 1)) + (product(tap + 2) + product(tap + 3));
@@ -237,8 +249,8 @@ struct TexelStart {
 // `floats` floats, a multiple of 4, of each lane's texels from each of its starts on: put(first lane, float's number as
 // a constant, those of one start after those of another, register of lanes). A lane's taps and weights are loaded once
 // for all of them.
-template <int floats, int W, int T, int All, class Start, class Put>
-TWINSHADE_FUNCTION void filter_floats(const float* texels, const TapTable<All, T>& taps, const Start& starts,
+template <int floats, int W, int T, int All, bool pairs, class Start, class Put>
+TWINSHADE_FUNCTION void filter_floats(const float* texels, const TapTable<All, T, pairs>& taps, const Start& starts,
                                       int first_lane, Put put) {
   if constexpr (!Simd<float, W>::whole) {
     filter_floats<floats, W / 2>(texels, taps, starts, first_lane, put);
@@ -255,11 +267,12 @@ TWINSHADE_FUNCTION void filter_floats(const float* texels, const TapTable<All, T
       std::size_t at[T];
       Register<float, W> weight[T];
       for (int tap = 0; tap < T; ++tap) {
-        at[tap] = taps.at[tap][first_lane + lane];
+        at[tap] = taps.place(tap, first_lane + lane);
         weight[tap] = registers::splat<float, W>(taps.weight[tap][first_lane + lane]);
       }
       unrolled<G>([&](auto g) TWINSHADE_LAMBDA {
-        const float* const from = texels + starts.at(g, first_lane + lane);
+        const float* const left = texels + starts.at(g, first_lane + lane);
+        const float* const from[2] = {left, left + (pairs ? taps.to_right : 0)};
         unrolled<kParts>([&](auto part) TWINSHADE_LAMBDA {
           registers::store(parts[g][part][lane], weighted_sum<W>(from, at, weight, part * W));
         });
@@ -321,11 +334,11 @@ TWINSHADE_FUNCTION void store_lanes(Aggregate& aggregate, int number, int first_
   registers::store(reinterpret_cast<float*>(&aggregate) + number * W + first_lane, lanes);
 }
 
-// The four channels of each of `count` layers that lie side by side. A call: shaders fetch in many places, and this is
-// long.
-template <int count, int W, int T>
-__attribute__((noinline)) TWINSHADE_WHOLE void filter_layers(const float* texels, const TapTable<W, T>& taps,
-                                                             vec<Simd<float, W>, 4> (&layers)[count]) {
+// The four channels of each of `count` layers that lie side by side. Part of the shader, as what follows: around a call
+// every register would be stored, and nothing be done while the filter waits.
+template <int count, int W, int T, bool pairs>
+TWINSHADE_FUNCTION void filter_layers(const float* texels, const TapTable<W, T, pairs>& taps,
+                                      vec<Simd<float, W>, 4> (&layers)[count]) {
   filter_floats<4 * count, W>(texels, taps, TexelStart(), 0,
                               [&](int first_lane, auto number, const auto& lanes)
                                   TWINSHADE_LAMBDA { store_lanes<W>(layers, number, first_lane, lanes); });
@@ -333,8 +346,8 @@ __attribute__((noinline)) TWINSHADE_WHOLE void filter_layers(const float* texels
 
 // The colours of `length` layers that lie side by side, four floats each, from each of three layers on.
 template <int length, int W, int T, class Run>
-__attribute__((noinline)) TWINSHADE_WHOLE void filter_runs(const float* texels, const TapTable<W, T>& taps,
-                                                           const Starts<W, 3>& first, arr<Run, 3>& runs) {
+TWINSHADE_FUNCTION void filter_runs(const float* texels, const TapTable<W, T>& taps, const Starts<W, 3>& first,
+                                    arr<Run, 3>& runs) {
   filter_floats<4 * length, W>(texels, taps, first, 0,
                                [&](int first_lane, auto number, const auto& lanes) TWINSHADE_LAMBDA {
                                  if constexpr (number % 4 != 3)
@@ -345,11 +358,6 @@ __attribute__((noinline)) TWINSHADE_WHOLE void filter_runs(const float* texels, 
 // Floats of a texel with the colours of `count` layers, as LayerOrder::colors_together lays them.
 constexpr int color_floats(int count) { return count / 5 * 16 + (count % 5 == 0 ? 0 : count % 5 == 1 ? 4 : 16); }
 
-// Whether filter_colors broadcasts numbers that all lanes read: with registers of 16 they are part of the product; with
-// 8 where that is fewer instructions than sums lane by lane, by count, by more than it takes to ask.
-template <int count, int W>
-inline constexpr bool kBroadcast = W == 16 || (W == 8 && 69 * count + 50 < 17 * color_floats(count) + 128);
-
 // filter_colors where all lanes read the same eight texels: their numbers, times each lane's weights.
 template <int count, int W>
 TWINSHADE_FUNCTION void filter_colors_once(const float* texels, const TapTable<W, 8>& taps,
@@ -357,7 +365,7 @@ TWINSHADE_FUNCTION void filter_colors_once(const float* texels, const TapTable<W
   const float* texel[8];
   Register<float, W> weight[8];
   unrolled<8>([&](auto tap) TWINSHADE_LAMBDA {
-    texel[tap] = texels + std::size_t{taps.at[tap][0]} * 2;
+    texel[tap] = texels + taps.place(tap, 0) * 2;
     __asm__("" : "+r"(texel[tap]));  // g++ would put eight addresses together in registers, to take them apart again
     weight[tap] = registers::load<W>(taps.weight[tap]);
   });
@@ -374,10 +382,11 @@ TWINSHADE_FUNCTION void filter_colors_once(const float* texels, const TapTable<W
 }
 
 // The colours of `count` layers that lie side by side so.
-template <int count, int W, int T>
-__attribute__((noinline)) TWINSHADE_WHOLE void filter_colors(const float* texels, const TapTable<W, T>& taps,
-                                                             arr<vec<Simd<float, W>, 3>, count>& colors) {
-  if constexpr (Simd<float, W>::whole && T == 8 && kBroadcast<count, W>)
+template <int count, int W, int T, bool pairs>
+TWINSHADE_FUNCTION void filter_colors(const float* texels, const TapTable<W, T, pairs>& taps,
+                                      arr<vec<Simd<float, W>, 3>, count>& colors) {
+  // Cells of volumes are larger than most groups of lanes.
+  if constexpr (Simd<float, W>::whole && T == 8 && W >= 8)
     if (taps.same_for_all_lanes()) return filter_colors_once(texels, taps, colors);
   filter_floats<color_floats(count), W>(texels, taps, TexelStart(), 0,
                                         [&](int first_lane, auto number, const auto& lanes) TWINSHADE_LAMBDA {

@@ -39,7 +39,7 @@ class TexelPrefetch {
     std::uintptr_t texel, right, above, above_right;
   };
 
-  TWINSHADE_APART void ask() {
+  TWINSHADE_FUNCTION void ask() {
     const std::uint32_t first = asked_ % kFound;
     if (first == 0) find();
     const std::uint32_t* at = at_[0] + first;

@@ -52,6 +52,10 @@ TWINSHADE_FUNCTION Taps<N::width> locate(const TextureView& view, const SphereMa
           vec<typename N::F, 4>(taps.weight)};
 }
 
+// With registers of 4 what is loaded twice is little beside what else a filter does.
+template <int W>
+inline constexpr bool kInPairs = W >= 8 && Simd<float, W>::whole;
+
 // Whether each lane's right texels are those after its left ones: not so where a texture repeats or ends.
 template <class N, class ExactTaps>
 TWINSHADE_FUNCTION bool side_by_side(const TextureView& view, const ExactTaps& taps) {
@@ -61,16 +65,23 @@ TWINSHADE_FUNCTION bool side_by_side(const TextureView& view, const ExactTaps& t
   return all((texel.z == texel.x + I(1)) & (left < typename N::U(static_cast<std::uint32_t>(view.width - 1))));
 }
 
-// Calls filter with a TapTable of the taps, which are at `where`. With registers of 16 filters are bound by what they
-// load: they get half of the places where that will do. (With registers of 8 it gains less than it takes to compile.)
-template <class N, class ExactTaps, class Filter>
+// Calls filter with a TapTable of the taps, which are at `where`: in pairs where that will do, since filters are bound
+// by what they load, and half of the places do then. That is nearly always so: what fetches otherwise is a call, which
+// all shaders of a unit share.
+template <class N, class ExactTaps, class Filter, class Otherwise>
 TWINSHADE_FUNCTION void with_table(const TextureView& view, const ExactTaps& taps, const Taps<N::width>& where,
-                                   Filter filter) {
+                                   Filter filter, Otherwise otherwise) {
   constexpr int W = N::width;
-  if constexpr (W == 16 && Simd<float, W>::whole)
-    if (side_by_side<N>(view, taps)) return filter(TapTable<W, 4, true>(where, view.texel_pitch));
-  filter(TapTable<W, 4>(where));
+  if constexpr (kInPairs<W>) {
+    if (side_by_side<N>(view, taps))
+      filter(TapTable<W, 4, true>(where, view.texel_pitch));
+    else
+      otherwise(TapTable<W, 4>(where));
+  } else {
+    filter(TapTable<W, 4>(where));
+  }
 }
+
 // One uniform fetch for all lanes: as the GLSL has it.
 template <class ExactTaps, class Fetch>
 TWINSHADE_FUNCTION auto uniform_fetch(const ExactTaps& taps, Fetch fetch) {
@@ -144,9 +155,10 @@ TWINSHADE_FUNCTION void exact_fetch_layers(Sampler2DArray<Real> maps, const Exac
                                            arr<vec<typename N::F, 4>, count>& layers) {
   const TextureView& view = *maps.view;
   if (view.layer_pitch != 4 || view.layers < count) return exact_fetch_layers_apart<N>(maps, ExactTaps(taps), layers);
-  detail::with_table<N>(view, taps, detail::locate<N>(view, taps), [&](const auto& table) TWINSHADE_LAMBDA {
-    detail::filter_layers<count>(view.texels, table, layers.e);
-  });
+  detail::with_table<N>(
+      view, taps, detail::locate<N>(view, taps),
+      [&](const auto& table) TWINSHADE_LAMBDA { detail::filter_layers<count>(view.texels, table, layers.e); },
+      [&](const auto& table) TWINSHADE_LAMBDA { detail::filter_layers_apart<count>(view.texels, table, layers.e); });
 }
 
 namespace detail {
@@ -221,9 +233,10 @@ TWINSHADE_FUNCTION mat<typename N::F, 2, 4> exact_fetch_pair(Sampler2DArray<Real
     if (where.same_for_all_lanes())
       return {detail::filtered_once(view.texels, where, 0), detail::filtered_once(view.texels, where, 4)};
     detail::Unset<mat<typename N::F, 2, 4>> both;
-    detail::with_table<N>(view, taps, where, [&](const auto& table) TWINSHADE_LAMBDA {
-      detail::filter_layers<2>(view.texels, table, both.value.c);
-    });
+    detail::with_table<N>(
+        view, taps, where,
+        [&](const auto& table) TWINSHADE_LAMBDA { detail::filter_layers<2>(view.texels, table, both.value.c); },
+        [&](const auto& table) TWINSHADE_LAMBDA { detail::filter_layers_apart<2>(view.texels, table, both.value.c); });
     return both.value;
   }
   return {exact_fetch<N>(first, taps, layer), exact_fetch<N>(second, taps, layer)};

@@ -134,9 +134,10 @@ TWINSHADE_FUNCTION void exact_fetch_colors(Sampler2DArray<Real> maps, const Exac
     });
   if constexpr (is_simd<N>)
     if (view.layers >= count)
-      return detail::with_table<N>(view, taps, detail::locate<N>(view, taps), [&](const auto& table) TWINSHADE_LAMBDA {
-        detail::filter_colors<count>(view.texels, table, colors);
-      });
+      return detail::with_table<N>(
+          view, taps, detail::locate<N>(view, taps),
+          [&](const auto& table) TWINSHADE_LAMBDA { detail::filter_colors<count>(view.texels, table, colors); },
+          [&](const auto& table) TWINSHADE_LAMBDA { detail::filter_colors_apart<count>(view.texels, table, colors); });
   detail::colors_by_lane<N, count>(
       view,
       [taps](int lane) { return std::pair(detail::lane_texels<N>(taps, lane), detail::lane_weights<N>(taps, lane)); },

@@ -344,6 +344,12 @@ TWINSHADE_FUNCTION void filter_layers(const float* texels, const TapTable<W, T, 
                                   TWINSHADE_LAMBDA { store_lanes<W>(layers, number, first_lane, lanes); });
 }
 
+template <int count, int W>
+TWINSHADE_APART void filter_layers_apart(const float* texels, const TapTable<W, 4>& taps,
+                                         vec<Simd<float, W>, 4> (&layers)[count]) {
+  filter_layers<count>(texels, taps, layers);
+}
+
 // The colours of `length` layers that lie side by side, four floats each, from each of three layers on.
 template <int length, int W, int T, class Run>
 TWINSHADE_FUNCTION void filter_runs(const float* texels, const TapTable<W, T>& taps, const Starts<W, 3>& first,
@@ -394,6 +400,12 @@ TWINSHADE_FUNCTION void filter_colors(const float* texels, const TapTable<W, T, 
                                           if constexpr (number % 16 != 15 && channel < 3 * count)
                                             store_lanes<W>(colors, channel, first_lane, lanes);
                                         });
+}
+
+template <int count, int W>
+TWINSHADE_APART void filter_colors_apart(const float* texels, const TapTable<W, 4>& taps,
+                                         arr<vec<Simd<float, W>, 3>, count>& colors) {
+  filter_colors<count>(texels, taps, colors);
 }
 
 }  // namespace detail

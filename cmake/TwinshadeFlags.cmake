@@ -70,9 +70,9 @@ endfunction()
 
 # Half a second of each unit is the standard library's headers. Once for libraries, once for programs, whose code is not the same
 # kind of position-independent.
-# Clang's presets go without: they see which includes are missing, and the fuzzers' flags are not those of the common headers.
+# With unity builds alone: the other presets see which includes are missing, and the fuzzers' flags are not those of the common headers.
 function(twinshade_precompile name)
-  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  if(NOT CMAKE_UNITY_BUILD)
     return()
   endif()
   get_target_property(type ${name} TYPE)
@@ -93,8 +93,10 @@ function(twinshade_precompile name)
   endif()
   target_precompile_headers(${name} REUSE_FROM ${common})
   # GCC forgets that these are system headers: false reports on strings (bug 105651).
-  target_compile_options(${name} PRIVATE -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow
-    -Wno-stringop-overread)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    target_compile_options(${name} PRIVATE -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow
+      -Wno-stringop-overread)
+  endif()
 endfunction()
 
 # A library of the project: add_library + the flags above.

@@ -3,13 +3,13 @@
 # other scripts, runs alone too. "all" adds what `tools/test.sh --all` needs.
 set -euo pipefail
 
-packages=(ca-certificates cmake ninja-build g++ pkg-config
+packages=(ca-certificates cmake ninja-build clang g++ pkg-config
   glslang-dev glslang-tools spirv-headers libglm-dev libopenimageio-dev doctest-dev
   libegl-dev libgl-dev libegl1 libegl-mesa0 libgl1-mesa-dri libosmesa6 libosmesa6-dev
   libcairo2-dev fonts-dejavu-core
   libeigen3-dev libembree-dev libtbb-dev libassimp-dev libcli11-dev nlohmann-json3-dev libfmt-dev gdb)
 if [ "${1:-}" = all ]; then
-  packages+=(clang libclang-rt-14-dev g++-aarch64-linux-gnu qemu-user)
+  packages+=(libclang-rt-14-dev g++-aarch64-linux-gnu qemu-user)
 fi
 
 missing=()

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs packages, builds `release` and runs every test that is not labelled slow.
-#   tools/test.sh --all   also the slow tests, clang, the sanitizers and AArch64
+#   tools/test.sh --all   also the slow tests, g++, the sanitizers and AArch64
 set -euo pipefail
 cd "$(dirname "$0")/.."
 all=no
@@ -21,8 +21,8 @@ if [ $all = no ]; then
 fi
 cmake --build --preset release --target slow_tests benches
 ctest --preset release --parallel 2
-for preset in clang asan tsan; do
+for preset in gcc asan tsan; do
   build $preset
   ctest --preset $preset --parallel 2 --label-exclude "slow|across-builds"
 done
-tools/same_bits.sh build/release/twinshade build/clang/twinshade
+tools/same_bits.sh build/release/twinshade build/gcc/twinshade

@@ -36,7 +36,7 @@
 #if defined(__clang__)
 #define TWINSHADE_FUNCTION TWINSHADE_INLINE
 #define TWINSHADE_WHOLE
-#define TWINSHADE_APART
+#define TWINSHADE_APART __attribute__((noinline))
 #else
 #define TWINSHADE_FUNCTION inline
 #define TWINSHADE_WHOLE __attribute__((flatten))

@@ -61,17 +61,18 @@ long double determinant(const long double (&m)[4][4], int n) {
 }  // namespace
 
 TEST_CASE("inverses undo, determinants are Laplace's, products associate, rounding is IEEE's") {
-  constexpr std::size_t kRows = 2048;
+  constexpr std::size_t kMatrixRows = 2048;
   Random random(11);
   std::vector<float> inputs;
-  for (std::size_t i = 0; i < 16 * kRows; ++i) inputs.push_back(random.uniform(-2, 2));
-  const std::vector<float> out = RowShader("matrix_operators", kMatrixOperators, Number::scalar).run(inputs, kRows);
-  const auto at = [&](std::size_t component, std::size_t row) { return out[component * kRows + row]; };
-  for (std::size_t row = 0; row < kRows; ++row) {
+  for (std::size_t i = 0; i < 16 * kMatrixRows; ++i) inputs.push_back(random.uniform(-2, 2));
+  const std::vector<float> out =
+      RowShader("matrix_operators", kMatrixOperators, Number::scalar).run(inputs, kMatrixRows);
+  const auto at = [&](std::size_t component, std::size_t row) { return out[component * kMatrixRows + row]; };
+  for (std::size_t row = 0; row < kMatrixRows; ++row) {
     CAPTURE(row);
     long double m[4][4];
     for (std::size_t c = 0; c < 4; ++c)
-      for (std::size_t r = 0; r < 4; ++r) m[c][r] = inputs[(4 * c + r) * kRows + row];
+      for (std::size_t r = 0; r < 4; ++r) m[c][r] = inputs[(4 * c + r) * kMatrixRows + row];
     for (int n = 4; n >= 2; --n) {
       const long double d = determinant(m, n);
       const std::size_t which = std::size_t(4 - n);

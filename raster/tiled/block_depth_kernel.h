@@ -163,7 +163,8 @@ class ExactDepth {
   TWINSHADE_INLINE F operator()(F x, F y) const {
     // The second half reads the same numbers as if they were others: instructions take them from memory then, instead
     // of moving them to registers first to use them twice.
-    const Corners *lo = &corners_, *hi = hidden(lo);
+    const Corners *lo = &corners_, *hi = lo;
+    if constexpr (!F::whole) hi = hidden(lo);
     ExactTriangle<F> t;
     for (int v = 0; v < 3; ++v) {
       t.x[v] = load_repeating<kNativeLanes, F>(lo->x[v]);

@@ -134,6 +134,15 @@ TWINSHADE_INLINE void for_each_covered_block(const RasterTriangle& t, const Cove
   }
 }
 
+// Stores lanes whose mask is set.
+TWINSHADE_INLINE void store_where(BlockMask mask, const Simd<std::uint32_t, kBlock>& lanes, std::uint32_t* to) {
+#if defined(__AVX512F__)
+  _mm512_mask_storeu_epi32(to, static_cast<__mmask16>(mask.bits()), (__m512i)lanes.v);
+#else
+  blend(mask, lanes, Simd<std::uint32_t, kBlock>::load(to)).store(to);
+#endif
+}
+
 template <class Depth>
 void cover_all(const CoverTile& tile) {
   using F = BlockFloats;
@@ -149,14 +158,14 @@ void cover_all(const CoverTile& tile) {
     for_each_covered_block(
         *tile.triangles[which], tile, places, [&](const auto& window, std::size_t block, I inmost) TWINSHADE_LAMBDA {
           const std::size_t pixel = window.pixel(block);
-          // Depths are from +0 to 1: their bits compare as they do. Where the triangle is not they become 1, nearer than
-          // none that is stored, so that what is stored is a minimum: the triangle that covers the block next waits for
-          // it, and would wait longer for a mask.
+          // Depths are from +0 to 1: their bits compare as they do. Where the triangle is not they become 1, nearer
+          // than none that is stored, so that what is stored is a minimum: the triangle that covers the block next
+          // waits for it, and would wait longer for a mask.
           const I depth = blend(inmost < I(0), I(kFarthest),
                                 depth_at(window.x(block), window.y(block)).template as<std::int32_t>());
           const I old = F::load(depths + pixel).template as<std::int32_t>();
           lanes_min(depth, old).template as<float>().store(depths + pixel);
-          blend(depth < old, local, U::load(visible + pixel)).store(visible + pixel);
+          store_where(depth < old, local, visible + pixel);
         });
   }
 }

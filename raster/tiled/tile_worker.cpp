@@ -70,16 +70,21 @@ void TileWorker::gather_triangles(std::uint32_t tile) {
     triangles[i] = &geometry.chunks[refs[i].chunk()].triangles[refs[i].index()];
     __builtin_prefetch(triangles[i]);
   }
+  const bool native = draw_.native();
   std::uint32_t* const locals = locals_.data();
   LocalPrimitive* next = primitives_.data();
   for (std::uint32_t i = 0; i < count; ++i) {
     const RasterTriangle& triangle = *triangles[i];
-    if (draw_.native()) {
-      const TriangleChunk& chunk = geometry.chunks[refs[i].chunk()];
-      *next++ = {triangle.primitive, &chunk.native[refs[i].index()], chunk.clipped_inputs.data(),
-                 triangle.front_facing};
-    } else if (i == 0 || next[-1].primitive != triangle.primitive) {
-      *next++ = {triangle.primitive, nullptr, nullptr, 0};
+    if (native || i == 0 || next[-1].primitive != triangle.primitive) {
+      // Field by field: clang++ puts a struct together on the stack, and the copy waits for it.
+      next->primitive = triangle.primitive;
+      if (native) {
+        const TriangleChunk& chunk = geometry.chunks[refs[i].chunk()];
+        next->native = &chunk.native[refs[i].index()];
+        next->clipped_inputs = chunk.clipped_inputs.data();
+        next->front_facing = triangle.front_facing;
+      }
+      ++next;
     }
     locals[i] = std::uint32_t(next - primitives_.data()) - 1;
   }

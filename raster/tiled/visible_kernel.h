@@ -11,29 +11,60 @@
 namespace twinshade::tiled {
 inline namespace TWINSHADE_ISA_NAMESPACE {
 
+// found(its number, local, coverage, whether there is one at all) for each primitive that is visible in a block;
+// returns how many there are. `covered`: its lanes that show one.
+template <class Found>
+TWINSHADE_INLINE std::uint32_t for_each_visible(const std::uint32_t* pixels, const Simd<std::uint32_t, 16>& visible,
+                                                std::uint32_t covered, Found found) {
+  using U = Simd<std::uint32_t, 16>;
+  std::uint32_t count = 0;
+#if defined(__AVX512CD__)
+  // How many there are is known before any is looked at, and most blocks have no more than four: those are done without
+  // asking, since a wrong guess costs more.
+  const __m512i lanes = (__m512i)visible.v, before = _mm512_conflict_epi32(lanes);
+  const std::uint32_t firsts = _mm512_testn_epi32_mask(before, before) & covered;
+  alignas(64) std::uint32_t locals[16];
+  _mm512_store_si512(locals, _mm512_maskz_compress_epi32(static_cast<__mmask16>(firsts), lanes));
+  count = static_cast<std::uint32_t>(__builtin_popcount(firsts));
+  const auto look = [&](std::uint32_t i)
+                        TWINSHADE_LAMBDA { found(i, locals[i], (visible == U(locals[i])).bits(), i < count); };
+  look(0), look(1), look(2), look(3);
+  for (std::uint32_t i = 4; i < count; ++i) look(i);
+#else
+  for (std::uint32_t left = covered; left != 0; ++count) {
+    const std::uint32_t local = pixels[__builtin_ctz(left)], coverage = (visible == U(local)).bits();
+    left &= ~coverage;
+    found(count, local, coverage, true);
+  }
+#endif
+  (void)pixels;
+  return count;
+}
+
 template <bool ids>
 TWINSHADE_INLINE std::uint32_t collect_visible_if(const CollectVisible& call) {
   using U = Simd<std::uint32_t, 16>;
   const CoverTile& tile = *call.tile;
   VisibleBlock* found = call.found;
+  std::uint32_t* const counts = call.counts;
   for (std::uint32_t block = 0, blocks = tile.size * tile.size / 16; block < blocks; ++block) {
     const std::uint32_t* pixels = tile.visible + 16 * block;
     const U visible = U::load(pixels);
-    std::uint32_t left = (visible != U(kNotVisible)).bits();
-    if (left != 0xffff) {
+    const std::uint32_t covered = (visible != U(kNotVisible)).bits();
+    if (covered != 0xffff) {
       float* color = call.color + 64 * std::size_t{block};
       for (int i = 0; i < 64; i += 16) Simd<float, 16>(0.0f).store(color + i);
     }
     U id(call.no_primitive);
-    while (left != 0) {
-      const std::uint32_t local = pixels[__builtin_ctz(left)];
-      const auto here = visible == U(local);
-      const std::uint32_t coverage = here.bits();
-      left &= ~coverage;
-      if constexpr (ids) id = select(here, U(tile.primitives[local].primitive), id);
-      *found++ = {local, std::uint16_t(block), std::uint16_t(coverage)};
-      ++call.counts[local + 1];
-    }
+    const std::uint32_t count =
+        for_each_visible(pixels, visible, covered,
+                         [&](std::uint32_t i, std::uint32_t local, std::uint32_t coverage, bool is) TWINSHADE_LAMBDA {
+                           if constexpr (ids)
+                             if (is) id = select(visible == U(local), U(tile.primitives[local].primitive), id);
+                           found[i] = {local, std::uint16_t(block), std::uint16_t(coverage)};
+                           counts[local + 1] += is;
+                         });
+    found += count;
     if constexpr (ids) id.store(call.primitive_id + 16 * block);
   }
   return std::uint32_t(found - call.found);
@@ -110,10 +141,15 @@ TWINSHADE_INLINE std::size_t add_blocks(AddCovered& call, Add add) {
   const std::size_t block_count = call.block_count;
   const std::uint32_t enough = call.enough;
   std::uint32_t count = call.count, run_count = call.run_count;
+  std::uint32_t last = run_count == 0 ? 0 : runs[run_count - 1].local;
   std::size_t taken = 0;
   for (; taken < block_count && count < enough; ++taken) {
     const VisibleBlock block = blocks[taken];
-    if (run_count == 0 || runs[run_count - 1].local != block.local) runs[run_count++] = {block.local, count};
+    const bool begins = run_count == 0 || last != block.local;
+    // Written over by the next one unless it begins a run, which no processor can predict.
+    runs[run_count] = {block.local, count};
+    run_count += begins;
+    last = block.local;
     count += add(block, taken, count);
   }
   call.count = count;

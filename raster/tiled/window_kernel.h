@@ -38,7 +38,8 @@ TWINSHADE_INLINE void transform_vertices_if(const TransformVertices& call) {
   WindowVertex* __restrict__ out = call.vertices;
   WindowPosition* __restrict__ to = call.positions;
   const Viewport viewport = call.viewport;
-  for (std::size_t v = 0; v < call.count; ++v) {
+  const std::size_t count = call.count;
+  for (std::size_t v = 0; v < count; ++v) {
     const WindowPosition position = window_position(clip + 4 * v, viewport);
     out[v] = {snapped(position.x), snapped(position.y), outside_planes(clip + 4 * v), 0};
     if constexpr (positions) to[v] = position;

@@ -82,8 +82,8 @@ struct ShaderData {  // the same for all invocations of a draw
   const BufferView* buffers;
 };
 
-// A texture whose texels are worth asking for before they are read: too large for the caches, repeating, and read at an
-// input's coordinates.
+// A texture whose texels are worth asking for before they are read: too large for the caches, and read at an input's
+// coordinates.
 struct TexelsAhead {
   std::uint32_t texture;      // index into ShaderData::textures
   std::uint32_t coordinates;  // first component, in ShadeCall::inputs

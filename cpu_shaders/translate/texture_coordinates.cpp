@@ -1,5 +1,6 @@
-// Patterns: exact_fetch and exact_fetch_pair of shaders/exact/bilinear.glsl with the taps of exact_taps_repeat(input,
-// ...), the functions around these, and texture(sampler2D, input).
+// Patterns: exact_fetch and exact_fetch_pair of shaders/exact/bilinear.glsl, exact_fetch_layers and exact_fetch_colors
+// beside it, with the taps of exact_taps_repeat(input, ...) or exact_taps_clamp(input, ...), the functions around
+// these, and texture(sampler2D, input).
 #include "cpu_shaders/translate/texture_coordinates.h"
 
 namespace twinshade::spirv {
@@ -67,8 +68,16 @@ class Reader {
     if (map == 0 || found_.count(map)) return;
     TextureCoordinates at;
     at.coordinates = input_behind(coordinates, Kind::real, 2);
-    if (layered) at.layer = input_behind(layer, Kind::integer, 1);
-    if (at.coordinates != 0 && (!layered || at.layer != 0)) found_[map] = at;
+    const bool first = !layered || is_zero(layer);
+    if (!first) at.layer = input_behind(layer, Kind::integer, 1);
+    if (at.coordinates != 0 && (first || at.layer != 0)) found_[map] = at;
+  }
+
+  bool is_zero(Id value) const {
+    const Instruction* made = made_by(value);
+    const auto constant = module_.constants.find(stored_.count(value) ? stored_.at(value) : value);
+    return made == nullptr && constant != module_.constants.end() && constant->second.components.empty() &&
+           constant->second.bits == 0;
   }
 
   bool is_exact(Id function, std::string_view name) const {
@@ -81,21 +90,24 @@ class Reader {
     const auto argument = [&](std::size_t k) { return i.operands[k + 1]; };
     const std::size_t arguments = i.operands.size() - 1;
     // The coordinates of taps.
-    const auto repeated = [&](Id taps) -> Id {
+    const auto filtered_at = [&](Id taps) -> Id {
       const Instruction* made = made_by(taps);
-      return made && made->op == spv::OpFunctionCall && is_exact(made->operands[0], "exact_taps_repeat")
-                 ? made->operands[1]
-                 : 0;
+      const bool found =
+          made && made->op == spv::OpFunctionCall &&
+          (is_exact(made->operands[0], "exact_taps_repeat") || is_exact(made->operands[0], "exact_taps_clamp"));
+      return found ? made->operands[1] : 0;
     };
-    if (is_exact(callee, "exact_bilinear_2d_repeat")) {
+    if (is_exact(callee, "exact_bilinear_2d_repeat") || is_exact(callee, "exact_bilinear_2d")) {
       note(argument(0), argument(1), false, 0);
-    } else if (is_exact(callee, "exact_bilinear_2d_array_repeat")) {
+    } else if (is_exact(callee, "exact_bilinear_2d_array_repeat") || is_exact(callee, "exact_bilinear_2d_array")) {
       note(argument(0), argument(1), true, argument(2));
     } else if (is_exact(callee, "exact_fetch")) {
-      note(argument(0), repeated(argument(1)), arguments > 2, arguments > 2 ? argument(2) : 0);
+      note(argument(0), filtered_at(argument(1)), arguments > 2, arguments > 2 ? argument(2) : 0);
     } else if (is_exact(callee, "exact_fetch_pair")) {
-      note(argument(0), repeated(argument(2)), true, argument(3));
-      note(argument(1), repeated(argument(2)), true, argument(3));
+      note(argument(0), filtered_at(argument(2)), true, argument(3));
+      note(argument(1), filtered_at(argument(2)), true, argument(3));
+    } else if (arguments == 3 && (is_exact(callee, "exact_fetch_layers") || is_exact(callee, "exact_fetch_colors"))) {
+      note(argument(0), filtered_at(argument(1)), false, 0);
     }
   }
 

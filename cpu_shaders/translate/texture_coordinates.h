@@ -7,8 +7,8 @@
 namespace twinshade::spirv {
 
 struct TextureCoordinates {
-  Id coordinates = 0;  // input variable, a vec2, which repeats
-  Id layer = 0;        // input variable, an int; 0: layer 0
+  Id coordinates = 0;  // input variable, a vec2
+  Id layer = 0;        // input variable, an int; 0: layer 0, or all layers at once
 };
 
 // By sampler variable, of sampler2D and sampler2DArray. The first place that reads it counts.

@@ -309,10 +309,10 @@ class Binder {
       const TextureView& view = draw_.textures[resource.slot];
       const std::size_t bytes = std::size_t(view.width) * std::size_t(view.height) * std::size_t(view.layers) *
                                 std::size_t(view.texel_pitch) * sizeof(float);
-      // Of texels with many layers a pixel reads more lines than it is worth asking for. Those of a pair are asked for
-      // with the first one's.
-      if (view.wrap != Wrap::repeat || bytes < kLargeTexture || view.texel_pitch > 8 || is_beside_another(resource))
-        continue;
+      // Of texels with many layers that repeat a pixel reads more lines than it is worth asking for. Those of a pair
+      // are asked for with the first one's.
+      const bool too_many = view.wrap == Wrap::repeat && view.texel_pitch > 8;
+      if (bytes < kLargeTexture || too_many || is_beside_another(resource)) continue;
       draw_.ahead.push_back({resource.slot, std::uint32_t(resource.coordinates), resource.layer});
     }
   }

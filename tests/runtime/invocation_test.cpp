@@ -133,11 +133,17 @@ TEST_CASE_TEMPLATE("texels can be asked for at any coordinates, for any number o
     inputs.data[kMost + i] = odd[i / 2 % 8];
     inputs.data[2 * kMost + i] = float_of(i % 3 == 0 ? 0u : i % 3 == 1 ? 0x80000000u : 0x7fffffffu);
   }
-  for (const std::int32_t size : {1, 3, 8}) {
+  struct Map {
+    std::int32_t size;
+    Wrap wrap;
+  };
+  for (const Map map : {Map{1, Wrap::repeat}, Map{3, Wrap::repeat}, Map{8, Wrap::repeat}, Map{1, Wrap::clamp_to_edge},
+                        Map{3, Wrap::clamp_to_edge}}) {
+    const std::int32_t size = map.size;
     const std::vector<float> texels(std::size_t(size) * std::size_t(size) * 4 * 2);
     const TextureView view{
-        texels.data(),  size,        size, 2, size * 4, std::ptrdiff_t{size} * size * 4, TextureKind::two_d_array,
-        Filter::linear, Wrap::repeat};
+        texels.data(),  size,    size, 2, size * 4, std::ptrdiff_t{size} * size * 4, TextureKind::two_d_array,
+        Filter::linear, map.wrap};
     const ShaderData data{nullptr, &view, nullptr};
     const std::vector<TexelsAhead> ahead{{0, 0, 2}, {0, 0, -1}, {0, 0, 2}, {0, 0, 2}, {0, 0, 2},
                                          {0, 0, 2}, {0, 0, 2},  {0, 0, 2}, {0, 0, 2}, {0, 0, -1}};

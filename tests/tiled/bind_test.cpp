@@ -154,7 +154,7 @@ TEST_CASE("a number that the module has no code for is refused with its reason")
                     "shader \"echo\" has no code for float64: tone.frag:12: floatBitsToInt");
 }
 
-TEST_CASE("texels are asked for ahead where a large texture repeats") {
+TEST_CASE("texels of large textures that are read at inputs are asked for ahead") {
   Bundle bundle = test::inside_bundle(8, 8, 1, 1);
   const auto add = [&](const char* name, std::uint32_t size, Wrap wrap) {
     Texture texture;
@@ -181,18 +181,19 @@ TEST_CASE("texels are asked for ahead where a large texture repeats") {
       {"first", array, 4, 0, true, apart, 5, 7, -1},   {"second", array, 5, 0, true, apart, -1, 7, -1}};
   const auto asked = [&] { return tiled::bind(bundle, wishes.module(), AttributeMode::exact).ahead; };
   const std::vector<TexelsAhead> ahead = asked();
-  REQUIRE(ahead.size() == 2);
+  REQUIRE(ahead.size() == 3);
   CHECK(ahead[0].texture == 0);
   CHECK(ahead[0].coordinates == 3);
   CHECK(ahead[0].layer == 5);
-  CHECK(ahead[1].texture == 4);  // the second's texels lie beside the first's
-  CHECK(ahead[1].coordinates == 7);
-  CHECK(ahead[1].layer == -1);
+  CHECK(ahead[1].texture == 2);
+  CHECK(ahead[2].texture == 4);  // the second's texels lie beside the first's
+  CHECK(ahead[2].coordinates == 7);
+  CHECK(ahead[2].layer == -1);
 
   bundle.textures[5].width = 128, bundle.textures[5].height = 512;  // another shape: not beside it
-  CHECK(asked().size() == 3);
-  wishes.resources[0].layer_order = LayerOrder::together;  // 16 floats a texel
-  CHECK(asked().size() == 2);
+  CHECK(asked().size() == 4);
+  wishes.resources[0].layer_order = wishes.resources[2].layer_order = LayerOrder::together;  // 16 floats a texel
+  CHECK(asked().size() == 3);                                                                // but the clamped one's
 }
 
 TEST_CASE("textures that are read together lie side by side, every texel where the views say") {

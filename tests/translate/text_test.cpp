@@ -209,8 +209,21 @@ TEST_CASE("textures that are read at an input's coordinates say which") {
       {"void main() { c = exact_bilinear_2d_repeat(map, uv) + exact_bilinear_2d_array_repeat(maps, uv2, layer); }",
        "uv", "uv2 layer", ""},
       {"void main() { vec2 at = uv2; c = texture(map, at); }", "uv2", "", ""},
-      // Clamped, computed, parts of an input, a layer that is no input.
-      {"void main() { c = exact_bilinear_2d(map, uv); }", "", "", ""},
+      // Clamped, all layers at once.
+      {"void main() { c = exact_bilinear_2d(map, uv) + exact_bilinear_2d_array(more, uv2, layer); }", "uv", "",
+       "uv2 layer"},
+      {"#define FETCHED_COLORS 6\n#include \"exact/fetch_colors.glsl\"\n"
+       "#define FETCHED_LAYERS 3\n#include \"exact/fetch_layers.glsl\"\n"
+       "void main() { ExactTaps t = exact_taps_clamp(uv2, textureSize(maps, 0).xy); vec3 rgb[6]; vec4 rgba[3];\n"
+       "  exact_fetch_colors(maps, t, rgb); exact_fetch_layers(more, t, rgba); c = vec4(rgb[5], 1) + rgba[2]; }",
+       "", "uv2", "uv2"},
+      {"void main() { c = exact_fetch(maps, exact_taps_clamp(uv, textureSize(maps, 0).xy), 0); }", "", "uv", ""},
+      {"void main() { c = exact_fetch(maps, exact_taps_clamp(uv, textureSize(maps, 0).xy), 1); }", "", "", ""},
+      // Computed, parts of an input, a layer that is no input, the sum of two taps.
+      {"#define FETCHED_COLORS 6\n#include \"exact/fetch_colors.glsl\"\n"
+       "void main() { ExactTaps t = exact_taps_clamp(uv2, textureSize(maps, 0).xy); vec3 rgb[6];\n"
+       "  exact_fetch_colors(maps, t, t, rgb); c = vec4(rgb[5], 1); }",
+       "", "", ""},
       {"void main() { c = texture(map, uv * 2.0); }", "", "", ""},
       {"void main() { c = texture(map, other.xy); }", "", "", ""},
       {"void main() { c = exact_bilinear_2d_array_repeat(maps, uv, layer + 1); }", "", "", ""},

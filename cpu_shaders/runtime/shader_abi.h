@@ -10,7 +10,7 @@
 
 namespace twinshade {
 
-inline constexpr std::uint32_t kAbiVersion = 8;
+inline constexpr std::uint32_t kAbiVersion = 9;
 
 // What a piece of translated code was built for. The numbers are an order: a machine that has avx512 has all before it.
 enum class Isa : std::uint8_t { baseline = 0, avx2 = 1, avx512 = 2 };  // baseline: x86-64-v2, or AArch64 with NEON
@@ -57,6 +57,8 @@ struct ShaderResource {
   // Sampler that is read at coordinates which are an input: its first component, and that of the layer; -1: another
   // way. With -1 for the layer alone it is layer 0. A hint (TexelsAhead).
   std::int32_t coordinates = -1, layer = -1;
+  // With LayerOrder::together: only the first so many layers are read, and others need not be there; 0: all.
+  std::uint32_t layers_read = 0;
 };
 
 struct TextureView {    // RGBA32F
@@ -66,7 +68,7 @@ struct TextureView {    // RGBA32F
   TextureKind kind;
   Filter filter;
   Wrap wrap;
-  // Floats from texel x to x + 1. Above 4: all layers of a texel lie side by side, layer_pitch 4; or, with layer_pitch
+  // Floats from texel x to x + 1. Above 4: layers of a texel lie side by side, layer_pitch 4; or, with layer_pitch
   // 3, as LayerOrder::colors_together says, which the served fetches of colours alone can read.
   std::ptrdiff_t texel_pitch = 4;
 };

@@ -111,7 +111,8 @@ std::string reflection_text(const Reflection& r, const ShaderSource& source, con
     resources.push_back(quoted(x.name) + ", " + kind_name(x.kind) + ", " + std::to_string(x.slot) + ", " +
                         std::to_string(x.minimum_size) + ", " + boolean(x.read_only) + ", " + "LayerOrder(" +
                         std::to_string(int(x.layer_order)) + ")" + ", " + std::to_string(x.beside) + ", " +
-                        std::to_string(x.coordinates) + ", " + std::to_string(x.layer));
+                        std::to_string(x.coordinates) + ", " + std::to_string(x.layer) + ", " +
+                        std::to_string(x.layers_read));
   table("ShaderUniform", "kUniforms", uniforms);
   table("ShaderResource", "kResources", resources);
 

@@ -237,6 +237,7 @@ class Describer {
         r.kind = kind;
         r.slot = reflection_.texture_count++;
         if (const auto order = layer_orders_.find(v.id); order != layer_orders_.end()) r.layer_order = order->second;
+        if (const auto read = layers_read_.find(v.id); read != layers_read_.end()) r.layers_read = read->second;
         reflection_.resources.push_back(r);
       }
       return;
@@ -405,6 +406,7 @@ class Describer {
   Reflection& reflection_;
   std::set<Id> mentioned_;
   const std::map<Id, LayerOrder> layer_orders_ = layer_orders(program_);
+  const std::map<Id, std::uint32_t> layers_read_ = layers_read(program_);
 };
 
 }  // namespace

@@ -84,12 +84,15 @@ bool fetches_all(const Module& module, const Function& f) {
 
 namespace {
 
-// Adds the variables and parameters that samplers reach those of `samplers` from.
-void follow_samplers_back(const Program& program, std::set<Id>& samplers) {
+using IsWhole = bool (*)(const Module&, const Function&);
+
+// Adds the variables and parameters that samplers reach those of `samplers` from. Functions that are whole are as good
+// as a single instruction.
+void follow_samplers_back(const Program& program, std::set<Id>& samplers, IsWhole is_whole = fetches_colors) {
   for (std::size_t before = 0; before != samplers.size();) {
     before = samplers.size();
     for (const auto& [id, info] : program.functions) {
-      if (fetches_colors(program.module, *info.function)) continue;  // as good as a single instruction
+      if (is_whole(program.module, *info.function)) continue;
       for_each_instruction(info.body.list, [&, &caller = info](const Instruction& i) {
         if (i.op != spv::OpFunctionCall) return;
         const auto& parameters = program.info(i.operands[0]).function->parameters;
@@ -113,28 +116,57 @@ Id fetched_sampler(const FunctionInfo& info, const Instruction& i) {
 
 }  // namespace
 
+namespace {
+
+// The samplers that anything reads from but functions that are whole.
+std::set<Id> samplers_read_apart(const Program& program, IsWhole is_whole) {
+  std::set<Id> samplers;
+  for (const auto& [id, info] : program.functions) {
+    if (is_whole(program.module, *info.function)) continue;
+    for_each_instruction(info.body.list, [&, &reader = info](const Instruction& i) {
+      if (const Id sampler = fetched_sampler(reader, i)) samplers.insert(sampler);
+    });
+  }
+  follow_samplers_back(program, samplers, is_whole);
+  return samplers;
+}
+
+}  // namespace
+
 std::map<Id, LayerOrder> layer_orders(const Program& program) {
-  std::set<Id> together, colors, otherwise;
+  std::set<Id> together, colors;
+  const std::set<Id> otherwise = samplers_read_apart(program, fetches_colors);
   for (const auto& [id, info] : program.functions) {
     const Function& f = *info.function;
     if (is_served_as(program.module, f, {"exact_fetch_ones", "exact_fetch_threes", "exact_fetch_layers"}))
       together.insert(f.parameters[0].id);
-    if (fetches_colors(program.module, f)) {
-      colors.insert(f.parameters[0].id);
-      continue;
-    }
-    for_each_instruction(info.body.list, [&, &reader = info](const Instruction& i) {
-      if (const Id sampler = fetched_sampler(reader, i)) otherwise.insert(sampler);
-    });
+    if (fetches_colors(program.module, f)) colors.insert(f.parameters[0].id);
   }
   follow_samplers_back(program, together);
   follow_samplers_back(program, colors);
-  follow_samplers_back(program, otherwise);
   std::map<Id, LayerOrder> orders;
   for (Id sampler : colors)
     if (!otherwise.count(sampler)) orders[sampler] = LayerOrder::colors_together;
   for (Id sampler : together) orders[sampler] = LayerOrder::together;
   return orders;
+}
+
+std::map<Id, std::uint32_t> layers_read(const Program& program) {
+  const auto fetches_layers = [](const Module& module, const Function& f) {
+    return is_served_as(module, f, {"exact_fetch_layers"});
+  };
+  const std::set<Id> otherwise = samplers_read_apart(program, fetches_layers);
+  std::map<Id, std::uint32_t> read;
+  for (const auto& [id, info] : program.functions) {
+    const Function& f = *info.function;
+    if (!fetches_layers(program.module, f)) continue;
+    const Type& filled = program.module.type(program.module.type(f.parameters.back().type).element);
+    std::set<Id> samplers{f.parameters[0].id};
+    follow_samplers_back(program, samplers, fetches_layers);
+    for (Id sampler : samplers)
+      if (!otherwise.count(sampler)) read[sampler] = std::max(read[sampler], filled.count);
+  }
+  return read;
 }
 
 std::map<Id, Id> samplers_side_by_side(const Program& program) {

@@ -24,4 +24,7 @@ std::map<Id, Id> samplers_side_by_side(const Program& program);
 // function of that kind. Only those that nothing else fetches from have their colours together.
 std::map<Id, LayerOrder> layer_orders(const Program& program);
 
+// Of which sampler variables only the first layers are read, and how many: by exact_fetch_layers alone.
+std::map<Id, std::uint32_t> layers_read(const Program& program);
+
 }  // namespace twinshade::spirv

@@ -56,6 +56,7 @@ struct ReflectedResource {
   LayerOrder layer_order = LayerOrder::apart;
   std::int32_t beside = -1;
   std::int32_t coordinates = -1, layer = -1;
+  std::uint32_t layers_read = 0;
 };
 
 struct Reflection {

@@ -209,7 +209,7 @@ class Binder {
     view.filter = texture->filter;
     view.wrap = texture->wrap;
     check_places(wanted, view);
-    if (wanted.layer_order == LayerOrder::together) interleave(view);
+    if (wanted.layer_order == LayerOrder::together) interleave(view, wanted.layers_read);
     if (wanted.layer_order == LayerOrder::colors_together) interleave_colors(view);
   }
 
@@ -237,9 +237,12 @@ class Binder {
     view.layer_pitch = view.row_pitch * view.height;
   }
 
-  // Layers side by side at each texel, in whole cache lines of four; the last one repeated at the end.
-  void interleave(TextureView& view) {
-    const auto layers = std::size_t(view.layers), padded = (layers + 3) / 4 * 4;
+  // Layers side by side at each texel, in whole cache lines of four, or two in half a line; the last one repeated at the
+  // end. layers_read: as ShaderResource has it.
+  void interleave(TextureView& view, std::uint32_t layers_read) {
+    const auto all = std::size_t(view.layers);
+    const std::size_t layers = layers_read == 0 ? all : std::min(all, std::size_t{layers_read});
+    const std::size_t padded = layers == 2 ? 2 : (layers + 3) / 4 * 4;
     const std::size_t width = std::size_t(view.width), height = std::size_t(view.height);
     const std::size_t pitch = row_pitch(width * padded * 4);
     AlignedArray<float>& to = draw_.laid_out.emplace_back(height * pitch);

@@ -405,8 +405,8 @@ TEST_CASE("in double the colours of all layers are sums in double, side by side 
   CHECK(std::fabs(apart[(7 * 3 + 1) * kRows] - expected) < 1e-12);
 }
 
-TEST_CASE("the reflection says how the layers of a sampler should lie") {
-  const auto order = [](const std::string& main, std::size_t resource = 0) {
+TEST_CASE("the reflection says how the layers of a sampler should lie, and how many are read") {
+  const auto map = [](const std::string& main) {
     const auto reflection = translate(resolve_shader("order",
                                                      "#define FETCHED_COLORS 5\n#define FETCHED_LAYERS 2\n"
                                                      "#include \"exact/fetch_colors.glsl\"\n"
@@ -418,8 +418,9 @@ TEST_CASE("the reflection says how the layers of a sampler should lie") {
                                                          main,
                                                      "order.frag"))
                                 .reflection;
-    return reflection.resources.at(resource).layer_order;
+    return reflection.resources.at(0);
   };
+  const auto order = [&](const std::string& main) { return map(main).layer_order; };
   const std::string taps = "void main() {\n  ExactTaps taps = exact_taps_clamp(uv, textureSize(maps, 0).xy);\n";
   const std::string five = taps + "  five(maps, taps);\n";
   CHECK(order(taps + "color = exact_fetch(maps, taps, 0); }\n") == LayerOrder::apart);
@@ -436,6 +437,15 @@ TEST_CASE("the reflection says how the layers of a sampler should lie") {
   CHECK(order(five + "color = texelFetch(maps, ivec3(0), 0); }\n") == LayerOrder::apart);
   CHECK(order(five + "color = texture(maps, vec3(uv, 0.0)); }\n") == LayerOrder::apart);
   CHECK(order(five + threes) == LayerOrder::together);
+
+  const std::string two = taps + "exact_fetch_layers(maps, taps, layers); color = layers[1];\n";
+  CHECK(map(two + "}\n").layers_read == 2);
+  CHECK(map(two + "color *= textureSize(maps, 0).z; }\n").layers_read == 2);
+  // All may be read.
+  CHECK(map(two + "color += exact_fetch(maps, taps, 7); }\n").layers_read == 0);
+  CHECK(map(two + "five(maps, taps); color.rgb += colors[1]; }\n").layers_read == 0);
+  CHECK(map(two + threes).layers_read == 0);
+  CHECK(map(five + "color = vec4(colors[1], 1.0); }\n").layers_read == 0);
 }
 
 TEST_CASE("in double the transcendentals of shaders/exact/ are good to 1e-15, not to their float polynomials") {

@@ -232,6 +232,13 @@ TEST_CASE("textures that are read together lie side by side, every texel where t
   CHECK(bound.textures[0].texel_pitch == 32);  // eight layers: the last one is there three times
   CHECK(*texel(bound.textures[0], 2, 1, 7) == *texel(bound.textures[0], 2, 1, 5));
   CHECK(bound.textures[2].texels == bound.textures[1].texels + 4);
+  for (const std::uint32_t read : {2u, 3u, 6u, 7u}) {
+    wishes.resources[0].layers_read = read;
+    const TextureView view = tiled::bind(bundle, wishes.module(), AttributeMode::exact).textures[0];
+    CHECK(view.layers == 6);
+    CHECK(view.texel_pitch == (read == 2 ? 8 : read == 3 ? 16 : 32));
+  }
+  wishes.resources[0].layers_read = 0;
 
   wishes.resources[0].layer_order = LayerOrder::colors_together;
   add("more_coefficients", 7);

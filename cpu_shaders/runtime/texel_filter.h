@@ -350,10 +350,73 @@ TWINSHADE_APART void filter_layers_apart(const float* texels, const TapTable<W, 
   filter_layers<count>(texels, taps, layers);
 }
 
+// The texels that all lanes read, by tap, and each lane's weights.
+template <int W, int T>
+struct SameTexels {
+  const float* texel[T];
+  Register<float, W> weight[T];
+
+  TWINSHADE_INLINE SameTexels(const float* texels, const TapTable<W, T>& taps) {
+    unrolled<T>([&](auto tap) TWINSHADE_LAMBDA {
+      texel[tap] = texels + taps.place(tap, 0) * 2;
+      __asm__("" : "+r"(texel[tap]));  // g++ would put the addresses together in registers, to take them apart again
+      weight[tap] = registers::load<W>(taps.weight[tap]);
+    });
+  }
+  // Of the number at `at` in each texel, times each lane's weights.
+  TWINSHADE_INLINE Register<float, W> sum(std::size_t at) const {
+    const auto product = [&](int tap)
+                             TWINSHADE_LAMBDA { return registers::splat<float, W>(texel[tap][at]) * weight[tap]; };
+    const auto four = [&](int tap) TWINSHADE_LAMBDA {
+      return (product(tap) + product(tap + 1)) + (product(tap + 2) + product(tap + 3));
+    };
+    if constexpr (T == 4)
+      return four(0);
+    else
+      return four(0) + four(4);
+  }
+};
+
+// filter_runs where all lanes read the same texels: what begins at each place where any lane begins, for all lanes, of
+// which those take it that begin there. There are four such places in most groups of sixteen; in groups of eight there
+// are as many for half the lanes, which costs more than lanes one by one.
+template <int length, int W, class Run>
+TWINSHADE_FUNCTION void filter_runs_once(const float* texels, const TapTable<W, 8>& taps, const Starts<W, 3>& first,
+                                         arr<Run, 3>& runs) {
+  using F = Simd<float, W>;
+  using U = Simd<std::uint32_t, W>;
+  const SameTexels<W, 8> same(texels, taps);
+  const U begins[3] = {U::load(first.from[0]), U::load(first.from[1]), U::load(first.from[2])};
+  constexpr std::uint32_t kAll = (std::uint32_t{1} << W) - 1;
+  std::uint32_t left[3] = {kAll, kAll, kAll};
+  float* const out = reinterpret_cast<float*>(&runs);
+  for (int run = 0; run < 3; ++run)
+    while (left[run] != 0) {
+      const std::uint32_t place = first.from[run][__builtin_ctz(left[run])];
+      const auto here0 = begins[0] == U(place), here1 = begins[1] == U(place), here2 = begins[2] == U(place);
+      unrolled<3 * length>([&](auto channel) TWINSHADE_LAMBDA {
+        F sum;
+        sum.v = same.sum(std::size_t{place} * 2 + channel / 3 * 4 + channel % 3);
+        const auto take = [&](int which, const auto& here) TWINSHADE_LAMBDA {
+          float* const to = out + (which * 3 * length + channel) * W;
+          blend(here, sum, F::load(to)).store(to);
+        };
+        take(0, here0);
+        take(1, here1);
+        take(2, here2);
+      });
+      left[0] &= ~here0.bits();
+      left[1] &= ~here1.bits();
+      left[2] &= ~here2.bits();
+    }
+}
+
 // The colours of `length` layers that lie side by side, four floats each, from each of three layers on.
 template <int length, int W, int T, class Run>
 TWINSHADE_FUNCTION void filter_runs(const float* texels, const TapTable<W, T>& taps, const Starts<W, 3>& first,
                                     arr<Run, 3>& runs) {
+  if constexpr (Simd<float, W>::whole && W == 16)
+    if (taps.same_for_all_lanes()) return filter_runs_once<length>(texels, taps, first, runs);
   filter_floats<4 * length, W>(texels, taps, first, 0,
                                [&](int first_lane, auto number, const auto& lanes) TWINSHADE_LAMBDA {
                                  if constexpr (number % 4 != 3)
@@ -368,22 +431,9 @@ constexpr int color_floats(int count) { return count / 5 * 16 + (count % 5 == 0 
 template <int count, int W>
 TWINSHADE_FUNCTION void filter_colors_once(const float* texels, const TapTable<W, 8>& taps,
                                            arr<vec<Simd<float, W>, 3>, count>& colors) {
-  const float* texel[8];
-  Register<float, W> weight[8];
-  unrolled<8>([&](auto tap) TWINSHADE_LAMBDA {
-    texel[tap] = texels + taps.place(tap, 0) * 2;
-    __asm__("" : "+r"(texel[tap]));  // g++ would put eight addresses together in registers, to take them apart again
-    weight[tap] = registers::load<W>(taps.weight[tap]);
-  });
+  const SameTexels<W, 8> same(texels, taps);
   unrolled<3 * count>([&](auto channel) TWINSHADE_LAMBDA {
-    constexpr int kAt = channel / 15 * 16 + channel % 15;
-    const auto product = [&](int tap)
-                             TWINSHADE_LAMBDA { return registers::splat<float, W>(texel[tap][kAt]) * weight[tap]; };
-    const auto four = [&](int tap) TWINSHADE_LAMBDA {
-      return (product(tap) + product(tap + 1)) + (product(tap + 2) + product(tap + 3));
-    };
-    const Register<float, W> sum = four(0) + four(4);
-    store_lanes<W>(colors, channel, 0, sum);
+    store_lanes<W>(colors, channel, 0, same.sum(channel / 15 * 16 + channel % 15));
   });
 }
 

@@ -14,8 +14,9 @@ inline namespace TWINSHADE_ISA_NAMESPACE {
 // found(its number, local, coverage, whether there is one at all) for each primitive that is visible in a block;
 // returns how many there are. `covered`: its lanes that show one.
 template <class Found>
-TWINSHADE_INLINE std::uint32_t for_each_visible(const std::uint32_t* pixels, const Simd<std::uint32_t, 16>& visible,
-                                                std::uint32_t covered, Found found) {
+TWINSHADE_INLINE std::uint32_t for_each_visible([[maybe_unused]] const std::uint32_t* pixels,
+                                                const Simd<std::uint32_t, 16>& visible, std::uint32_t covered,
+                                                Found found) {
   using U = Simd<std::uint32_t, 16>;
   std::uint32_t count = 0;
 #if defined(__AVX512CD__)
@@ -37,7 +38,6 @@ TWINSHADE_INLINE std::uint32_t for_each_visible(const std::uint32_t* pixels, con
     found(count, local, coverage, true);
   }
 #endif
-  (void)pixels;
   return count;
 }
 

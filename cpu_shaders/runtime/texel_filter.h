@@ -210,14 +210,9 @@ TWINSHADE_FUNCTION Register<float, K> first_lanes(const V& lanes) {
   (std::make_integer_sequence<int, K>());
 }
 
-// Floats first .. first + K - 1 of a lane's texels, weighted and summed in the order of the GLSL. at: as TapTable has
-// it, from where left texels and right ones begin.
-template <int K, int T, class Weight>
-TWINSHADE_FUNCTION Register<float, K> weighted_sum(const float* const (&from)[2], const std::size_t (&at)[T],
-                                                   const Weight (&weight)[T], int first) {
-  const auto product = [&](int tap) TWINSHADE_LAMBDA {
-    return registers::load<K>(from[tap % 2] + at[tap] * 2 + first) * first_lanes<K>(weight[tap]);
-  };
+// The taps' products, summed in the order of the GLSL.
+template <int T, class Product>
+TWINSHADE_FUNCTION auto sum_of_taps(Product product) {
   const auto four = [&](int tap) TWINSHADE_LAMBDA {
     return (product(tap) + product(tap + 1)) + (product(tap + 2) + product(tap + 3));
   };
@@ -225,6 +220,16 @@ TWINSHADE_FUNCTION Register<float, K> weighted_sum(const float* const (&from)[2]
     return four(0);
   else
     return four(0) + four(4);
+}
+
+// Floats first .. first + K - 1 of a lane's texels, weighted and summed in the order of the GLSL. at: as TapTable has
+// it, from where left texels and right ones begin.
+template <int K, int T, class Weight>
+TWINSHADE_FUNCTION Register<float, K> weighted_sum(const float* const (&from)[2], const std::size_t (&at)[T],
+                                                   const Weight (&weight)[T], int first) {
+  return sum_of_taps<T>([&](int tap) TWINSHADE_LAMBDA {
+    return registers::load<K>(from[tap % 2] + at[tap] * 2 + first) * first_lanes<K>(weight[tap]);
+  });
 }
 
 // Where in its texels each lane's floats begin, `count` times: in memory, in twos of floats, given in fours.
@@ -365,15 +370,8 @@ struct SameTexels {
   }
   // Of the number at `at` in each texel, times each lane's weights.
   TWINSHADE_INLINE Register<float, W> sum(std::size_t at) const {
-    const auto product = [&](int tap)
-                             TWINSHADE_LAMBDA { return registers::splat<float, W>(texel[tap][at]) * weight[tap]; };
-    const auto four = [&](int tap) TWINSHADE_LAMBDA {
-      return (product(tap) + product(tap + 1)) + (product(tap + 2) + product(tap + 3));
-    };
-    if constexpr (T == 4)
-      return four(0);
-    else
-      return four(0) + four(4);
+    return sum_of_taps<T>([&](int tap)
+                              TWINSHADE_LAMBDA { return registers::splat<float, W>(texel[tap][at]) * weight[tap]; });
   }
 };
 

@@ -237,8 +237,8 @@ class Binder {
     view.layer_pitch = view.row_pitch * view.height;
   }
 
-  // Layers side by side at each texel, in whole cache lines of four, or two in half a line; the last one repeated at the
-  // end. layers_read: as ShaderResource has it.
+  // Layers side by side at each texel, in whole cache lines of four, or two in half a line; the last one repeated at
+  // the end. layers_read: as ShaderResource has it.
   void interleave(TextureView& view, std::uint32_t layers_read) {
     const auto all = std::size_t(view.layers);
     const std::size_t layers = layers_read == 0 ? all : std::min(all, std::size_t{layers_read});
@@ -310,8 +310,10 @@ class Binder {
       const ShaderResource& resource = module_.resources[i];
       if (resource.coordinates < 0) continue;
       const TextureView& view = draw_.textures[resource.slot];
-      const std::size_t bytes = std::size_t(view.width) * std::size_t(view.height) * std::size_t(view.layers) *
-                                std::size_t(view.texel_pitch) * sizeof(float);
+      // Layers that lie together are part of the texel.
+      const bool apart = view.layer_pitch > view.texel_pitch;
+      const std::size_t bytes = std::size_t(view.width) * std::size_t(view.height) *
+                                std::size_t(apart ? view.layers : 1) * std::size_t(view.texel_pitch) * sizeof(float);
       // Of texels with many layers that repeat a pixel reads more lines than it is worth asking for. Those of a pair
       // are asked for with the first one's.
       const bool too_many = view.wrap == Wrap::repeat && view.texel_pitch > 8;

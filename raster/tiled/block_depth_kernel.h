@@ -161,8 +161,8 @@ class ExactDepth {
     }
   }
   TWINSHADE_INLINE F operator()(F x, F y) const {
-    // The second half reads the same numbers as if they were others: instructions take them from memory then, instead
-    // of moving them to registers first to use them twice.
+    // A second half reads the same numbers as if they were others: instructions take them from memory then, instead of
+    // moving them to registers first to use them twice. Without one they stay in registers.
     const Corners *lo = &corners_, *hi = lo;
     if constexpr (!F::whole) hi = hidden(lo);
     ExactTriangle<F> t;

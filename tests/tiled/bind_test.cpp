@@ -194,6 +194,12 @@ TEST_CASE("texels of large textures that are read at inputs are asked for ahead"
   CHECK(asked().size() == 4);
   wishes.resources[0].layer_order = wishes.resources[2].layer_order = LayerOrder::together;  // 16 floats a texel
   CHECK(asked().size() == 3);                                                                // but the clamped one's
+
+  // 128 KiB: the layers that lie together count once.
+  Texture& clamped = bundle.textures[2];
+  clamped.width = clamped.height = 32, clamped.layers = 8;
+  clamped.texels.resize(std::size_t{32} * 32 * 8 * 4);
+  CHECK(asked().size() == 2);
 }
 
 TEST_CASE("textures that are read together lie side by side, every texel where the views say") {

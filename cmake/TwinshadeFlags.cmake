@@ -70,7 +70,7 @@ endfunction()
 
 # Half a second of each unit is the standard library's headers. Once for libraries, once for programs, whose code is not the same
 # kind of position-independent.
-# With unity builds alone: the other presets see which includes are missing, and the fuzzers' flags are not those of the common headers.
+# With unity builds alone: g++'s preset, without, sees which includes are missing.
 function(twinshade_precompile name)
   if(NOT CMAKE_UNITY_BUILD)
     return()

@@ -5,6 +5,7 @@
 
 #include "raster/tiled/block_depth_kernel.h"
 #include "raster/tiled/kernels.h"
+#include "raster/tiled/visible_kernel.h"
 
 namespace twinshade::tiled {
 inline namespace TWINSHADE_ISA_NAMESPACE {
@@ -144,15 +145,22 @@ TWINSHADE_INLINE void store_where(BlockMask mask, const Simd<std::uint32_t, kBlo
 }
 
 template <class Depth>
-void cover_all(const CoverTile& tile) {
+std::uint32_t cover_all(const CoverTile& tile) {
   using F = BlockFloats;
   using I = BlockInts;
   using U = Simd<std::uint32_t, kBlock>;
   const StoredPlaces<Depth::kNdc> places(tile);
   float* const depths = tile.depth;
   std::uint32_t* const visible = tile.visible;
+  const std::uint32_t pixels = tile.size * tile.size;
+  VisibleBlock* next = tile.blocks;
+  VisibleBlock* const almost_full = next + (kBlockRoom * pixels - pixels / kBlock);
   for (std::uint32_t which = 0; which < tile.count; ++which) {
-    const U local(tile.locals[which]);
+    if (next > almost_full)
+      next = tile.blocks + keep_visible(tile, std::uint32_t(next - tile.blocks),
+                                        [](std::uint32_t triangle, std::uint32_t, const auto&)
+                                            TWINSHADE_LAMBDA { return triangle; });
+    const U triangle(which);
     const Depth depth_at(tile, which);
     // Stored without asking whether any pixel is nearer: the answer comes late, and four times in five it is yes.
     for_each_covered_block(
@@ -165,17 +173,16 @@ void cover_all(const CoverTile& tile) {
                                 depth_at(window.x(block), window.y(block)).template as<std::int32_t>());
           const I old = F::load(depths + pixel).template as<std::int32_t>();
           lanes_min(depth, old).template as<float>().store(depths + pixel);
-          store_where(depth < old, local, visible + pixel);
+          store_where(depth < old, triangle, visible + pixel);
+          *next++ = {which, std::uint16_t(pixel / kBlock), 0};
         });
   }
+  return std::uint32_t(next - tile.blocks);
 }
 
-inline void cover(const CoverTile& tile) {
-  if (tile.count == 0) return;
-  if (tile.primitives->native)
-    cover_all<NativeDepth>(tile);
-  else
-    cover_all<ExactDepth>(tile);
+inline std::uint32_t cover(const CoverTile& tile) {
+  if (tile.count == 0) return 0;
+  return tile.primitives->native ? cover_all<NativeDepth>(tile) : cover_all<ExactDepth>(tile);
 }
 
 template <class Depth>

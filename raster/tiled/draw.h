@@ -100,7 +100,6 @@ class TileWorker {
  private:
   void gather_triangles(std::uint32_t tile);
   void shade_visible();  // shade_pass.cpp
-  void collect_visible();
   void shade_batch();
   void shade_in_order();  // in_order_pass.cpp
   void resolve_in_order();
@@ -126,8 +125,7 @@ class TileWorker {
   std::vector<LocalPrimitive> primitives_;
   std::uint32_t primitive_count_ = 0;
 
-  std::vector<VisibleBlock> found_, sorted_;  // shade_pass.cpp
-  std::vector<std::uint32_t> place_of_local_;
+  std::vector<VisibleBlock> blocks_;   // shade_pass.cpp
   std::vector<VisibleBlock> covered_;  // in_order_pass.cpp
   std::vector<float> covered_depths_;
 };

@@ -62,6 +62,13 @@ struct VertexData {
   float ndc_scale_x, ndc_scale_y;  // 2 / viewport: ndc = pixel centre * scale - 1, exactly
 };
 
+// Where a primitive or a triangle shows in a 4 x 4 block.
+struct VisibleBlock {
+  std::uint32_t local;     // index into the tile's LocalPrimitives; while a tile is covered, of its triangles
+  std::uint16_t block;     // index in the tile's memory / 16
+  std::uint16_t coverage;  // bit i: pixel i of the block
+};
+
 // Triangles of one tile in primitive order.
 struct CoverTile {
   const RasterTriangle* const* triangles;
@@ -72,21 +79,17 @@ struct CoverTile {
   std::uint32_t x, y, size;  // lower left pixel; tile size
   std::uint32_t frame_width, frame_height;
   float* depth;            // of the tile: +0 to 1
-  std::uint32_t* visible;  // local index, or kNotVisible
+  std::uint32_t* visible;  // index into triangles, or kNotVisible
+  VisibleBlock* blocks;    // out: triangle by triangle, those that each may cover; room for kBlockRoom a pixel
 };
-
-// Where one primitive is visible in a 4 x 4 block, or one triangle covers it.
-struct VisibleBlock {
-  std::uint32_t local;     // index into the tile's LocalPrimitives
-  std::uint16_t block;     // index in the tile's memory / 16
-  std::uint16_t coverage;  // bit i: pixel i of the block
-};
+// Blocks for which there must be room, a pixel of the tile: one in which it shows, and all that one more triangle
+// covers.
+inline constexpr std::uint32_t kBlockRoom = 2;
 
 // What a tile shows, once all its triangles are covered.
 struct CollectVisible {
-  const CoverTile* tile;
-  VisibleBlock* found;          // out: block by block; room for one a pixel
-  std::uint32_t* counts;        // [local + 1] grows by the number of blocks found for it
+  const CoverTile* tile;        // its blocks become those in which their triangle shows, with their coverage
+  std::uint32_t block_count;    // before
   std::uint32_t* primitive_id;  // out: of each pixel; or null
   std::uint32_t no_primitive;   // its value where nothing is visible
   float* color;                 // of the tile; zeros in blocks that are not filled
@@ -159,13 +162,13 @@ struct Kernels {
   Number number;
   void (*transform_vertices)(const TransformVertices&);
   TriangleMasks (*set_up_triangles)(const SetUpTriangles&);
-  // Covers and depth-tests all triangles; leaves depth and visible.
-  void (*cover)(const CoverTile&);
+  // Covers and depth-tests all triangles; leaves depth, visible and blocks. Returns how many blocks there are.
+  std::uint32_t (*cover)(const CoverTile&);
   // Covers triangle `which` alone: blocks, and 16 depths each, with room for all of a tile. With early_depth_test,
   // pixels that fail it now are left out. Returns how many blocks there are; one more may have been written.
   std::uint32_t (*cover_one)(const CoverTile&, std::uint32_t which, bool early_depth_test, VisibleBlock* blocks,
                              float* depths);
-  // Returns how many blocks it found.
+  // Returns how many blocks are left.
   std::uint32_t (*collect_visible)(const CollectVisible&);
   // Return how many blocks they took. The first adds covered pixels, the second quads that have some.
   std::size_t (*add_covered)(AddCovered&);

@@ -11,63 +11,46 @@
 namespace twinshade::tiled {
 inline namespace TWINSHADE_ISA_NAMESPACE {
 
-// found(its number, local, coverage, whether there is one at all) for each primitive that is visible in a block;
-// returns how many there are. `covered`: its lanes that show one.
+// Of blocks, those in which their triangle shows, with their coverage, closed up. Returns how many are left.
+// found(triangle, block, which of its pixels show it) returns what becomes of the triangle's number.
 template <class Found>
-TWINSHADE_INLINE std::uint32_t for_each_visible([[maybe_unused]] const std::uint32_t* pixels,
-                                                const Simd<std::uint32_t, 16>& visible, std::uint32_t covered,
-                                                Found found) {
+TWINSHADE_INLINE std::uint32_t keep_visible(const CoverTile& tile, std::uint32_t count, Found found) {
   using U = Simd<std::uint32_t, 16>;
-  std::uint32_t count = 0;
-#if defined(__AVX512CD__)
-  // How many there are is known before any is looked at, and most blocks have no more than four: those are done without
-  // asking, since a wrong guess costs more.
-  const __m512i lanes = (__m512i)visible.v, before = _mm512_conflict_epi32(lanes);
-  const std::uint32_t firsts = _mm512_testn_epi32_mask(before, before) & covered;
-  alignas(64) std::uint32_t locals[16];
-  _mm512_store_si512(locals, _mm512_maskz_compress_epi32(static_cast<__mmask16>(firsts), lanes));
-  count = static_cast<std::uint32_t>(__builtin_popcount(firsts));
-  const auto look = [&](std::uint32_t i)
-                        TWINSHADE_LAMBDA { found(i, locals[i], (visible == U(locals[i])).bits(), i < count); };
-  look(0), look(1), look(2), look(3);
-  for (std::uint32_t i = 4; i < count; ++i) look(i);
-#else
-  for (std::uint32_t left = covered; left != 0; ++count) {
-    const std::uint32_t local = pixels[__builtin_ctz(left)], coverage = (visible == U(local)).bits();
-    left &= ~coverage;
-    found(count, local, coverage, true);
+  VisibleBlock* const blocks = tile.blocks;
+  const std::uint32_t* const visible = tile.visible;
+  std::uint32_t kept = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t triangle = blocks[i].local, block = blocks[i].block;
+    const auto shows = U::load(visible + 16 * std::size_t{block}) == U(triangle);
+    const std::uint32_t coverage = shows.bits();
+    blocks[kept] = {found(triangle, block, shows), std::uint16_t(block), std::uint16_t(coverage)};
+    kept += coverage != 0;  // written over by the next one unless it shows, which no processor can predict
   }
-#endif
-  return count;
+  return kept;
 }
 
 template <bool ids>
 TWINSHADE_INLINE std::uint32_t collect_visible_if(const CollectVisible& call) {
   using U = Simd<std::uint32_t, 16>;
   const CoverTile& tile = *call.tile;
-  VisibleBlock* found = call.found;
-  std::uint32_t* const counts = call.counts;
+  const U not_visible(kNotVisible), no_primitive(call.no_primitive);
   for (std::uint32_t block = 0, blocks = tile.size * tile.size / 16; block < blocks; ++block) {
-    const std::uint32_t* pixels = tile.visible + 16 * block;
-    const U visible = U::load(pixels);
-    const std::uint32_t covered = (visible != U(kNotVisible)).bits();
-    if (covered != 0xffff) {
+    if ((U::load(tile.visible + 16 * block) == not_visible).bits() != 0) {
       float* color = call.color + 64 * std::size_t{block};
       for (int i = 0; i < 64; i += 16) Simd<float, 16>(0.0f).store(color + i);
     }
-    U id(call.no_primitive);
-    const std::uint32_t count =
-        for_each_visible(pixels, visible, covered,
-                         [&](std::uint32_t i, std::uint32_t local, std::uint32_t coverage, bool is) TWINSHADE_LAMBDA {
-                           if constexpr (ids)
-                             if (is) id = select(visible == U(local), U(tile.primitives[local].primitive), id);
-                           found[i] = {local, std::uint16_t(block), std::uint16_t(coverage)};
-                           counts[local + 1] += is;
-                         });
-    found += count;
-    if constexpr (ids) id.store(call.primitive_id + 16 * block);
+    if constexpr (ids) no_primitive.store(call.primitive_id + 16 * block);
   }
-  return std::uint32_t(found - call.found);
+  const std::uint32_t* const locals = tile.locals;
+  return keep_visible(tile, call.block_count,
+                      [&](std::uint32_t triangle, std::uint32_t block, const auto& shows) TWINSHADE_LAMBDA {
+                        const std::uint32_t local = locals[triangle];
+                        if constexpr (ids) {
+                          std::uint32_t* const id = call.primitive_id + 16 * std::size_t{block};
+                          select(shows, U(tile.primitives[local].primitive), U::load(id)).store(id);
+                        }
+                        return local;
+                      });
 }
 
 inline std::uint32_t collect_visible(const CollectVisible& call) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "raster/tiled/tiled_renderer.h"
 #include "tests/tiled/hand_module.h"
@@ -46,6 +47,28 @@ TEST_CASE("many triangles together are the nearest of each alone") {
       DrawOptions options;
       options.attributes = mode;
       CHECK(frame_hash(draw_tiled(bundle, *module, options)) == frame_hash(merged(bundle, *module, options)));
+    }
+}
+
+TEST_CASE("a tile forgets blocks that are hidden, to have room for more, and no others") {
+  test::Random random(8);
+  Bundle bundle = test::empty_bundle(48, 48);
+  for (int i = 0; i < 150; ++i) {  // a tile of 16 pixels has room for what 32 triangles cover
+    const float z[3] = {float(random.between(-0.9, 0.9)), float(random.between(-0.9, 0.9)),
+                        float(random.between(-0.9, 0.9))};
+    const float all[12] = {-1, -1, z[0], 1, 3, -1, z[1] * 2 - z[0], 1, -1, 3, z[2] * 2 - z[0], 1};
+    test::add_triangle(bundle, all, random);
+  }
+  test::finish(bundle);
+  DrawOptions options;
+  options.tile_size = 16;
+  for (const AttributeMode mode : {AttributeMode::exact, AttributeMode::native})
+    for (const ShaderModule* module : {&test::echo_module(), &test::derivatives_module()}) {
+      options.attributes = mode;
+      const Frame frame = draw_tiled(bundle, *module, options);
+      CHECK(frame_hash(frame) == frame_hash(merged(bundle, *module, options)));
+      const std::set<std::uint32_t> ids(frame.primitive_id.begin(), frame.primitive_id.end());
+      CHECK(ids.size() > 5);
     }
 }
 

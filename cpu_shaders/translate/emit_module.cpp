@@ -80,8 +80,7 @@ class ModuleEmitter {
   void find_varying_indices() {
     for (const Instance* at : instances_.callees_first)
       for_each_instruction(at->info->body.list, [&](const Instruction& i) {
-        if ((i.op == spv::OpAccessChain || i.op == spv::OpInBoundsAccessChain) && at->is_varying(i.operands[1]))
-          indexed_by_lanes_.insert(i.operands[0]);
+        if (i.is_chain() && at->is_varying(i.operands[1])) indexed_by_lanes_.insert(i.operands[0]);
       });
   }
 

@@ -10,8 +10,6 @@ namespace {
 // Arrays and structs out of buffers are put together leaf by leaf.
 constexpr std::uint32_t kMostLeavesLoaded = 256;
 
-bool is_chain(const Instruction& i) { return i.op == spv::OpAccessChain || i.op == spv::OpInBoundsAccessChain; }
-
 }  // namespace
 
 std::string FunctionEmitter::declare(Id variable, const std::string& wanted) {
@@ -94,7 +92,7 @@ FunctionEmitter::Place FunctionEmitter::place(Id pointer) {
   Id at = pointer;
   for (;;) {
     const auto found = info_.definitions.find(at);
-    if (found == info_.definitions.end() || !is_chain(*found->second)) break;
+    if (found == info_.definitions.end() || !found->second->is_chain()) break;
     chains.push_back(found->second);
     at = found->second->operands[0];
   }

@@ -45,8 +45,7 @@ class Folder {
       if (i.op == spv::OpStore) ++stores_[i.operands[0]];
       if (i.op == spv::OpLoad) ++loads_[i.operands[0]];
       for (Id id : value_operands(i)) ++mentions_[id];
-      const bool chain = i.op == spv::OpAccessChain || i.op == spv::OpInBoundsAccessChain;
-      if (chain) pointers_into_[i.result] = is_free(i) && !is_buffer(i.operands[0]);
+      if (i.is_chain()) pointers_into_[i.result] = is_free(i) && !is_buffer(i.operands[0]);
     });
     fold(body.list);
     for_each_instruction(body.list, [&](Instruction& i) {

@@ -7,7 +7,6 @@
 namespace twinshade::spirv {
 namespace {
 
-bool is_pointer_chain(const Instruction& i) { return i.op == spv::OpAccessChain || i.op == spv::OpInBoundsAccessChain; }
 
 bool is_local(const Module& module, Id variable) {
   const auto found = module.variables.find(variable);
@@ -43,7 +42,7 @@ class Gatherer {
   void count_chains() {
     std::vector<const Instruction*> chains;
     for_each_instruction(info_.body.list, [&](const Instruction& i) {
-      if (is_pointer_chain(i)) chains.push_back(&i);
+      if (i.is_chain()) chains.push_back(&i);
     });
     std::for_each(chains.rbegin(), chains.rend(), [&](const Instruction* chain) {
       const int more = info_.uses[chain->result] - 1;
@@ -168,7 +167,7 @@ class Gatherer {
         const Id root = root_of(info_, i.operands[0]);
         ++stores[root];
         if (i.operands[0] == root && module_.is_constant(i.operands[1])) constant[root] = i.operands[1];
-      } else if (i.op != spv::OpLoad && !is_pointer_chain(i)) {
+      } else if (i.op != spv::OpLoad && !i.is_chain()) {
         for (Id id : value_operands(i))
           if (module_.value_types.count(id) && module_.type_of(id).kind == Kind::pointer) ++other[root_of(info_, id)];
       }
@@ -256,7 +255,7 @@ bool FunctionInfo::passed_uncopied(const Module& module, std::size_t parameter) 
 Id root_of(const FunctionInfo& info, Id pointer) {
   for (;;) {
     const auto found = info.definitions.find(pointer);
-    if (found == info.definitions.end() || !is_pointer_chain(*found->second)) return pointer;
+    if (found == info.definitions.end() || !found->second->is_chain()) return pointer;
     pointer = found->second->operands[0];
   }
 }

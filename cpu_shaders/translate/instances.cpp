@@ -19,8 +19,6 @@ struct Frame {
 // interpolateAtCentroid, interpolateAtSample
 bool is_interpolation(std::uint32_t extended) { return extended == 76 || extended == 77; }
 
-bool is_chain(const Instruction& i) { return i.op == spv::OpAccessChain || i.op == spv::OpInBoundsAccessChain; }
-
 class Analysis {
  public:
   explicit Analysis(const Program& program) : program_(program), module_(program.module) {}
@@ -231,7 +229,7 @@ class Analysis {
     bool varying_path(Id pointer) const {
       for (;;) {
         const auto found = info_.definitions.find(pointer);
-        if (found == info_.definitions.end() || !is_chain(*found->second)) return false;
+        if (found == info_.definitions.end() || !found->second->is_chain()) return false;
         if (varying_index(*found->second)) return true;
         pointer = found->second->operands[0];
       }

@@ -48,7 +48,7 @@ class Finder {
 
   void note(const Instruction& i) {
     std::set<Id> roots;
-    if (i.op == spv::OpAccessChain || i.op == spv::OpInBoundsAccessChain) return;  // counts where it is used
+    if (i.is_chain()) return;  // counts where it is used
     if (direct_.skipped.count(&i)) return;
     for (Id id : value_operands(i)) {
       const auto type = program_.module.value_types.find(id);

@@ -22,6 +22,8 @@ struct Instruction {
   std::vector<std::uint32_t> operands;  // without type and result
   std::uint32_t file = 0;               // OpString
   int line = 0;
+
+  bool is_chain() const { return op == spv::OpAccessChain || op == spv::OpInBoundsAccessChain; }
 };
 
 struct Block {

@@ -32,7 +32,7 @@ class TexelPrefetch {
   using F = typename N::F;
   using I = typename N::I;
   using U = typename N::U;
-  static constexpr std::uint32_t kMost = 8, kFound = 64;
+  static constexpr std::uint32_t kMost = 8, kFound = 256;
 
   // Of the texel at 0 and its neighbour to the right, and of those in the row above: the first byte, and how far away
   // the others are that stand for a line of memory each. Where the row above is the texture's first again, or the

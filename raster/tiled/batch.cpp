@@ -109,7 +109,8 @@ float Batch::frag_depth(std::uint32_t k) const {
   return depth < 1 ? (depth > 0 ? depth : 0.0f) : 1.0f;  // NaN: 1, which no depth is greater than
 }
 
-// Without branches: which ones are kept cannot be predicted. Depths are not negative, so their bits compare as they do.
+// Without branches, which clang++ makes of selections: which ones are kept cannot be predicted. Depths are not
+// negative, so their bits compare as they do.
 template <bool writes_depth>
 void Batch::test_depth_of(float* tile_depth, std::uint32_t* tile_visible) {
   const std::uint32_t count = shaded();
@@ -119,10 +120,10 @@ void Batch::test_depth_of(float* tile_depth, std::uint32_t* tile_visible) {
       const std::uint32_t pixel = pixels_[k];
       const auto depth = std::bit_cast<std::uint32_t>(writes_depth ? frag_depth(k) : depths_[k]);
       const auto before = std::bit_cast<std::uint32_t>(tile_depth[pixel]);
-      const bool nearer = (kept_[k] != 0) & (depth < before);
-      tile_depth[pixel] = std::bit_cast<float>(nearer ? depth : before);
-      tile_visible[pixel] = nearer ? local : tile_visible[pixel];
-      live_[k] = nearer ? ~0u : 0u;
+      const std::uint32_t takes = 0u - std::uint32_t((kept_[k] != 0) & (depth < before));
+      tile_depth[pixel] = std::bit_cast<float>((depth & takes) | (before & ~takes));
+      tile_visible[pixel] = (local & takes) | (tile_visible[pixel] & ~takes);
+      live_[k] = takes;
     }
   }
 }

@@ -74,16 +74,17 @@ class Interpolator {
 
   // From the order of pixels in a tile's memory (kernels.h).
   TWINSHADE_INLINE void find_centers() {
-    const U tile_x(call_.tile_x), tile_y(call_.tile_y), superblock_mask((1u << call_.superblocks_log) - 1);
+    // A superblock is 256 pixels, 16 across.
+    const U across(((1u << call_.superblocks_log) - 1) << 4), up_by(call_.superblocks_log + 4);
+    const F first_x(R(call_.tile_x) + R(0.5)), first_y(R(call_.tile_y) + R(0.5));
     std::uint32_t i = 0;
     for (; i < call_.count; i += kWidth) {
-      const U pixel = U::load(call_.pixels + i), superblock = pixel >> U(8u);
-      const U x = (pixel & U(1u)) | (pixel >> U(1u) & U(2u)) | (pixel >> U(2u) & U(12u)) |
-                  (superblock & superblock_mask) << U(4u);
-      const U y = (pixel >> U(1u) & U(1u)) | (pixel >> U(2u) & U(2u)) | (pixel >> U(4u) & U(12u)) |
-                  superblock >> U(call_.superblocks_log) << U(4u);
-      ((tile_x + x).template to<std::int32_t>().template to<R>() + F(R(0.5))).store(center_x_ + i);
-      ((tile_y + y).template to<std::int32_t>().template to<R>() + F(R(0.5))).store(center_y_ + i);
+      const U pixel = U::load(call_.pixels + i), half = pixel >> U(1u), quarter = pixel >> U(2u),
+              sixteenth = pixel >> U(4u);
+      const U x = (pixel & U(1u)) | (half & U(2u)) | (quarter & U(12u)) | (sixteenth & across);
+      const U y = (half & U(1u)) | (quarter & U(2u)) | (sixteenth & U(12u)) | (pixel >> up_by & U(~15u));
+      (x.template to<std::int32_t>().template to<R>() + first_x).store(center_x_ + i);
+      (y.template to<std::int32_t>().template to<R>() + first_y).store(center_y_ + i);
     }
     for (; i < call_.count + 16; ++i) center_x_[i] = center_y_[i] = R(0.5);
   }

@@ -1,5 +1,5 @@
-// What most units include of the standard library, for the precompiled header. Units still include what they use: presets
-// other than `release` build without.
+// What most units include of the standard library, for the precompiled header. Units still include what they use: the
+// preset of g++ builds without.
 #pragma once
 
 #include <algorithm>

@@ -7,7 +7,6 @@
 namespace twinshade::spirv {
 namespace {
 
-
 bool is_local(const Module& module, Id variable) {
   const auto found = module.variables.find(variable);
   return found != module.variables.end() && found->second.storage == spv::StorageClassFunction;

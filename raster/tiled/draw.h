@@ -115,7 +115,7 @@ class TileWorker {
 
   CoverTile tile_{};
   AlignedArray<float> depth_;
-  AlignedArray<std::uint32_t> visible_;
+  AlignedArray<std::uint32_t> visible_;  // triangles; in primitive order (in_order_pass.cpp) LocalPrimitives
   // Of the tile's pixels in memory order, when shading is done; clear where nothing is visible.
   AlignedArray<float> color_;                 // RGBA; room for a pixel more, for what is not stored
   AlignedArray<std::uint32_t> primitive_id_;  // if DrawOptions::visibility
@@ -123,11 +123,9 @@ class TileWorker {
   std::vector<const RasterTriangle*> triangles_;
   std::vector<std::uint32_t> locals_;
   std::vector<LocalPrimitive> primitives_;
-  std::uint32_t primitive_count_ = 0;
 
-  std::vector<VisibleBlock> blocks_;   // shade_pass.cpp
-  std::vector<VisibleBlock> covered_;  // in_order_pass.cpp
-  std::vector<float> covered_depths_;
+  std::vector<VisibleBlock> blocks_;  // of all triangles (shade_pass.cpp), or of one (in_order_pass.cpp)
+  std::vector<float> block_depths_;   // in_order_pass.cpp
 };
 
 }  // namespace twinshade::tiled

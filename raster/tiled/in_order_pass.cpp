@@ -13,16 +13,16 @@ void TileWorker::shade_in_order() {
   const bool early_depth_test = !draw_.module.writes_depth && !draw_.module.has_side_effects;
   const std::size_t pixels = std::size_t(tile_.size) * tile_.size;
   std::fill_n(color_.data(), 4 * pixels, 0.0f);
-  covered_.resize(pixels / 16);
-  covered_depths_.resize(pixels);
+  blocks_.resize(pixels / 16);
+  block_depths_.resize(pixels);
   for (std::uint32_t which = 0; which < tile_.count; ++which) {
     std::uint32_t count;
     {
       const FlushDenormals flush;
-      count = draw_.kernels.cover_one(tile_, which, early_depth_test, covered_.data(), covered_depths_.data());
+      count = draw_.kernels.cover_one(tile_, which, early_depth_test, blocks_.data(), block_depths_.data());
     }
     for (std::size_t taken = 0; taken < count;) {
-      taken += batch_.add(&covered_[taken], count - taken, covered_depths_.data() + 16 * taken);
+      taken += batch_.add(&blocks_[taken], count - taken, block_depths_.data() + 16 * taken);
       if (batch_.full()) resolve_in_order();
     }
   }

@@ -82,8 +82,8 @@ struct CoverTile {
   std::uint32_t* visible;  // index into triangles, or kNotVisible
   VisibleBlock* blocks;    // out: triangle by triangle, those that each may cover; room for kBlockRoom a pixel
 };
-// Blocks for which there must be room, a pixel of the tile: one in which it shows, and all that one more triangle
-// covers.
+// For each pixel of a tile: once blocks that show nothing are dropped there is no more than one a pixel, and the next
+// triangle's take less than the other.
 inline constexpr std::uint32_t kBlockRoom = 2;
 
 // What a tile shows, once all its triangles are covered.

@@ -92,7 +92,6 @@ void TileWorker::gather_triangles(std::uint32_t tile) {
   tile_.locals = locals;
   tile_.count = count;
   tile_.primitives = primitives_.data();
-  primitive_count_ = std::uint32_t(next - primitives_.data());
 }
 
 }  // namespace twinshade::tiled

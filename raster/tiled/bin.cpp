@@ -73,7 +73,7 @@ class ChunkSetup {
     const TriangleMasks masks = set_up(geometry_.vertices.data(), index, count, room_for_triangles());
     if (masks.cut == 0) {  // they are where they belong
       for (std::uint32_t left = masks.visible; left != 0; left &= left - 1)
-        add_visible(first, index, std::uint32_t(std::countr_zero(left)));
+        add_visible(first, index, std::uint32_t(std::countr_zero(left)), masks.front);
       return;
     }
     RasterTriangle ready[kSetUpAtOnce];
@@ -85,17 +85,17 @@ class ChunkSetup {
         add_clipped(first + i, index + 3 * i);
       } else {
         *room_for_triangles() = *next++;
-        add_visible(first, index, i);
+        add_visible(first, index, i, masks.front);
       }
     }
   }
 
-  // The triangle that is next in the chunk: primitive `first` + i, whole.
-  void add_visible(std::uint32_t first, const std::uint32_t* index, std::uint32_t i) {
-    const RasterTriangle& triangle = add_triangle(first + i);
+  // The triangle that is next in the chunk: primitive `first` + i, whole. front: as TriangleMasks has it.
+  void add_visible(std::uint32_t first, const std::uint32_t* index, std::uint32_t i, std::uint32_t front) {
+    add_triangle(first + i);
     if (native_)
-      add_native(triangle, {corner_of_vertex(index[3 * i]), corner_of_vertex(index[3 * i + 1]),
-                            corner_of_vertex(index[3 * i + 2])});
+      add_native((front >> i & 1) != 0, {corner_of_vertex(index[3 * i]), corner_of_vertex(index[3 * i + 1]),
+                                         corner_of_vertex(index[3 * i + 2])});
   }
 
   // For kSetUpAtOnce more.
@@ -131,9 +131,10 @@ class ChunkSetup {
       WindowVertex window[3];
       for (std::size_t k = 0; k < 3; ++k) window[k] = {corners[k].window.x, corners[k].window.y, 0, 0};
       constexpr std::uint32_t kInOrder[3] = {0, 1, 2};
-      if (set_up(window, kInOrder, 1, room_for_triangles()).visible == 0) continue;
-      const RasterTriangle& triangle = add_triangle(primitive);
-      if (native_) add_native(triangle, corners);
+      const TriangleMasks masks = set_up(window, kInOrder, 1, room_for_triangles());
+      if (masks.visible == 0) continue;
+      add_triangle(primitive);
+      if (native_) add_native(masks.front != 0, corners);
     }
   }
 
@@ -183,20 +184,20 @@ class ChunkSetup {
   }
 
   // The one that is next in the chunk.
-  const RasterTriangle& add_triangle(std::uint32_t primitive) {
+  void add_triangle(std::uint32_t primitive) {
     RasterTriangle& triangle = chunk_.triangles[used_];
     triangle.primitive = primitive;
     add_references(triangle, std::uint32_t(used_++));
-    return triangle;
   }
 
-  void add_native(const RasterTriangle& triangle, const std::array<Corner, 3>& corners) {
+  void add_native(bool front_facing, const std::array<Corner, 3>& corners) {
     NativeTriangle native;
     for (std::size_t i = 0; i < 3; ++i) {
-      const Corner& from = corners[triangle.front_facing == 0 && i < 2 ? 1 - i : i];
+      const Corner& from = corners[!front_facing && i < 2 ? 1 - i : i];
       native.position[i] = from.position;
       native.vertex[i] = from.vertex;
     }
+    native.front_facing = front_facing ? ~0u : 0u;
     chunk_.native.push_back(native);
   }
 

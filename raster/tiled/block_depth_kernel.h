@@ -98,6 +98,7 @@ class StoredPlaces {
   struct Window {
     const Column* columns;
     const Row* rows;
+    std::uint32_t column, row;
     // Both halves of a block have the same columns.
     TWINSHADE_INLINE F x(std::size_t block) const { return load_repeating<kBlock / 2, F>(columns[block % 4].x); }
     TWINSHADE_INLINE F y(std::size_t block) const { return F::load(rows[block / 4].y); }
@@ -106,7 +107,7 @@ class StoredPlaces {
     }
   };
   TWINSHADE_INLINE Window window(std::uint32_t column, std::uint32_t row) const {
-    return {hidden(columns_ + column), hidden(rows_ + row)};
+    return {hidden(columns_ + column), hidden(rows_ + row), column, row};
   }
 
  private:

@@ -1,9 +1,10 @@
 // Which pixels a triangle covers and how deep it is there. Hierarchy: windows of 16 x 16 pixels in 64-bit arithmetic,
 // from the triangle's first block on, so that a small triangle has one; then blocks of 4 x 4, then a block's pixels in
-// 32 bits (after Abrash, Rasterization on Larrabee, 2009).
+// 32 bits (after Abrash, Rasterization on Larrabee, 2009). Blocks in which it is hidden are left out.
 #pragma once
 
 #include "raster/tiled/block_depth_kernel.h"
+#include "raster/tiled/farthest_depths_kernel.h"
 #include "raster/tiled/kernels.h"
 #include "raster/tiled/visible_kernel.h"
 
@@ -17,9 +18,6 @@ alignas(64) inline constexpr std::int32_t kBlockY[16] = {0, 0, 0, 0, 4, 4, 4, 4,
 inline constexpr std::uint32_t kWindow = 16;
 // Edge values are cut off here: farther from 0 than any step within a window (15 * (|a| + |b|) < 2^29) can lead back.
 inline constexpr std::int64_t kEdgeLimit = std::int64_t{1} << 30;
-
-// The bits of 1.0f, the depth where nothing was drawn.
-inline constexpr std::int32_t kFarthest = 0x3f800000;
 
 // A number of each edge. The fourth lane means nothing.
 using Edges = Register<std::int64_t, 4>;
@@ -57,19 +55,47 @@ TWINSHADE_INLINE bool all_negative(I x) {
     return all_negative(x.lo & x.hi);
 }
 
+// A triangle's pixels within a tile, from the tile's first one, and windows of 4 x 4 blocks over them: x, y of such a
+// window's first pixel are first_x, first_y and each kWindow farther, up to x1, y1.
+struct Box {
+  std::uint32_t first_x, first_y, x1, y1;
+
+  // Its bounding box has pixels in the tile.
+  TWINSHADE_INLINE Box(const RasterTriangle& t, const CoverTile& tile) {
+    const std::uint32_t min_x = t.min_x, max_x = t.max_x, min_y = t.min_y, max_y = t.max_y, last = tile.size - 1;
+    const std::uint32_t x0 = min_x > tile.x ? min_x - tile.x : 0, y0 = min_y > tile.y ? min_y - tile.y : 0;
+    first_x = x0 & ~3u, first_y = y0 & ~3u;
+    x1 = max_x - tile.x < last ? max_x - tile.x : last;
+    y1 = max_y - tile.y < last ? max_y - tile.y : last;
+  }
+
+  // Bit k: block k of the window, by rows, has pixels in these rows or columns.
+  TWINSHADE_INLINE std::uint32_t rows_from(std::uint32_t y) const {
+    const std::uint32_t rows_left = (y1 - y) / 4;
+    return 0xffffu >> (12 - 4 * (rows_left < 3 ? rows_left : 3));
+  }
+  TWINSHADE_INLINE std::uint32_t columns_from(std::uint32_t x) const {
+    const std::uint32_t columns_left = (x1 - x) / 4;
+    return 0x1111u * (0xfu >> (3 - (columns_left < 3 ? columns_left : 3)));
+  }
+
+  // Whether all of its blocks are left out. left_out: as for_each_covered_block's.
+  template <class LeftOut>
+  TWINSHADE_INLINE bool all_left_out(LeftOut left_out) const {
+    for (std::uint32_t y = first_y; y <= y1; y += kWindow)
+      for (std::uint32_t x = first_x; x <= x1; x += kWindow)
+        if ((rows_from(y) & columns_from(x) & ~left_out(x / 4, y / 4)) != 0) return false;
+    return true;
+  }
+};
+
 // Calls use(places.window(column, row), block, inmost) for each block of the tile of which some pixels are covered:
 // those whose lane of inmost is not negative. column, row: of a window of 4 x 4 blocks, in blocks from the tile's first
-// one; block: 0 to 15, by rows. The triangle's bounding box has pixels in the tile.
-template <class Places, class Use>
-TWINSHADE_INLINE void for_each_covered_block(const RasterTriangle& t, const CoverTile& tile, const Places& places,
-                                             Use use) {
+// one; block: 0 to 15, by rows. left_out(column, row): bit k of its result says that block k need not be looked at.
+template <class Places, class LeftOut, class Use>
+TWINSHADE_INLINE void for_each_covered_block(const RasterTriangle& t, const CoverTile& tile, const Box& box,
+                                             const Places& places, LeftOut left_out, Use use) {
   using I = BlockInts;
-
-  // The triangle's pixels within this tile, from its first one.
-  const std::uint32_t min_x = t.min_x, max_x = t.max_x, min_y = t.min_y, max_y = t.max_y, last = tile.size - 1;
-  const std::uint32_t x0 = min_x > tile.x ? min_x - tile.x : 0, x1 = max_x - tile.x < last ? max_x - tile.x : last;
-  const std::uint32_t y0 = min_y > tile.y ? min_y - tile.y : 0, y1 = max_y - tile.y < last ? max_y - tile.y : last;
-  const std::uint32_t first_x = x0 & ~3u, first_y = y0 & ~3u;
   const bool at_border = tile.x + tile.size > tile.frame_width || tile.y + tile.size > tile.frame_height;
 
   // Steps from windows' first pixels to their blocks' first pixels, from these to their blocks' pixels that are most
@@ -91,25 +117,22 @@ TWINSHADE_INLINE void for_each_covered_block(const RasterTriangle& t, const Cove
   const Steps& steps = *hidden(&all_steps);
   // Of windows' first pixels: steps to their pixels that are most inside, to the next window's, to the next row's.
   const Edges reach = widened((inwards << 4) - inwards), step_x = widened(a << 4), step_y = widened(b << 4);
-  Edges first_in_row =
-      registers::load<4>(t.c) + product(a, std::int32_t(tile.x + first_x)) + product(b, std::int32_t(tile.y + first_y));
+  Edges first_in_row = registers::load<4>(t.c) + product(a, std::int32_t(tile.x + box.first_x)) +
+                       product(b, std::int32_t(tile.y + box.first_y));
   const Edges limit = Edges{} + kEdgeLimit;
 
-  for (std::uint32_t y = first_y; y <= y1; y += kWindow, first_in_row += step_y) {
-    const std::uint32_t rows_left = (y1 - y) / 4;
-    const std::uint32_t rows_in_box = 0xffffu >> (12 - 4 * (rows_left < 3 ? rows_left : 3));
+  for (std::uint32_t y = box.first_y; y <= box.y1; y += kWindow, first_in_row += step_y) {
+    const std::uint32_t rows_in_box = box.rows_from(y);
     Edges first = first_in_row;
-    for (std::uint32_t x = first_x; x <= x1; x += kWindow) {
+    for (std::uint32_t x = box.first_x; x <= box.x1; x += kWindow) {
       const Edges here = first;
       first += step_x;
       if (any_negative(here + reach)) continue;
+      // Bit k: block k holds pixels of the bounding box; then, it is not wholly outside an edge.
+      const std::uint32_t in_box = rows_in_box & box.columns_from(x) & ~left_out(x / 4, y / 4);
+      if (in_box == 0) continue;
       alignas(32) std::int64_t edge[4];
       registers::store(edge, here < limit ? here : limit);
-
-      // Bit k: block k holds pixels of the bounding box and is not wholly outside an edge.
-      static constexpr std::uint16_t kColumns[4] = {0x1111, 0x3333, 0x7777, 0xffff};
-      const std::uint32_t columns_left = (x1 - x) / 4;
-      const std::uint32_t in_box = rows_in_box & kColumns[columns_left < 3 ? columns_left : 3];
       alignas(64) std::int32_t block_edge[3][16];
       I nearest(0);
       for (int e = 0; e < 3; ++e) {
@@ -144,38 +167,77 @@ TWINSHADE_INLINE void store_where(BlockMask mask, const Simd<std::uint32_t, kBlo
 #endif
 }
 
+TWINSHADE_INLINE std::uint32_t group_end(const CoverTile& tile, std::uint32_t first) {
+  return tile.count - first < kTrianglesTogether ? tile.count : first + kTrianglesTogether;
+}
+
+// Asks for the corners of the next group's triangles, and for what says which those are of the group after it: groups
+// lie apart.
+TWINSHADE_INLINE void ask_for_corners(const CoverTile& tile, std::uint32_t group) {
+  const VertexData& vertices = *tile.vertices;
+  const auto for_each_triangle = [&](std::uint32_t which_group, auto use) TWINSHADE_LAMBDA {
+    if (which_group >= tile.group_count) return;
+    const std::uint32_t first = tile.groups[which_group].first, end = group_end(tile, first);
+    for (std::uint32_t which = first; which < end; ++which)
+      use(vertices.indices + std::size_t{tile.triangles[which]->primitive} * 3);
+  };
+  for_each_triangle(group + 2, [](const std::uint32_t* index) TWINSHADE_LAMBDA { __builtin_prefetch(index); });
+  for_each_triangle(group + 1, [&](const std::uint32_t* index) TWINSHADE_LAMBDA {
+    for (int v = 0; v < 3; ++v) __builtin_prefetch(vertices.clip_positions + std::size_t{index[v]} * 4);
+  });
+}
+
 template <class Depth>
 std::uint32_t cover_all(const CoverTile& tile) {
   using F = BlockFloats;
   using I = BlockInts;
   using U = Simd<std::uint32_t, kBlock>;
   const StoredPlaces<Depth::kNdc> places(tile);
+  FarthestDepths farthest(tile);
   float* const depths = tile.depth;
   std::uint32_t* const visible = tile.visible;
   const std::uint32_t pixels = tile.size * tile.size;
   VisibleBlock* next = tile.blocks;
   VisibleBlock* const almost_full = next + (kBlockRoom * pixels - pixels / kBlock);
-  for (std::uint32_t which = 0; which < tile.count; ++which) {
+  const auto cover_triangle = [&](std::uint32_t which) TWINSHADE_LAMBDA {
     if (next > almost_full)
       next = tile.blocks + keep_visible(tile, std::uint32_t(next - tile.blocks),
                                         [](std::uint32_t triangle, std::uint32_t, const auto&)
                                             TWINSHADE_LAMBDA { return triangle; });
-    const U triangle(which);
+    const RasterTriangle& t = *tile.triangles[which];
+    const auto is_hidden = [&](std::uint32_t column, std::uint32_t row)
+                               TWINSHADE_LAMBDA { return farthest.nearer_than(t.nearest, column, row); };
+    const Box box(t, tile);
+    if (box.all_left_out(is_hidden)) return;
+    const I triangle(static_cast<std::int32_t>(which));
     const Depth depth_at(tile, which);
-    // Stored without asking whether any pixel is nearer: the answer comes late, and four times in five it is yes.
+    // Stored without asking whether any pixel is nearer: the answer comes late, and is nearly always yes.
     for_each_covered_block(
-        *tile.triangles[which], tile, places, [&](const auto& window, std::size_t block, I inmost) TWINSHADE_LAMBDA {
+        t, tile, box, places, is_hidden, [&](const auto& window, std::size_t block, I inmost) TWINSHADE_LAMBDA {
           const std::size_t pixel = window.pixel(block);
           // Depths are from +0 to 1: their bits compare as they do. Where the triangle is not they become 1, nearer
           // than none that is stored, so that what is stored is a minimum: the triangle that covers the block next
           // waits for it, and would wait longer for a mask.
           const I depth = blend(inmost < I(0), I(kFarthest),
                                 depth_at(window.x(block), window.y(block)).template as<std::int32_t>());
-          const I old = F::load(depths + pixel).template as<std::int32_t>();
-          lanes_min(depth, old).template as<float>().store(depths + pixel);
-          store_where(depth < old, triangle, visible + pixel);
+          const I old = F::load(depths + pixel).template as<std::int32_t>(), now = lanes_min(depth, old);
+          now.template as<float>().store(depths + pixel);
+          // Of triangles that are as deep the first one shows: it is less than what is one unit farther. kNotVisible is
+          // -1, before all of them, so that nothing shows at 1.
+          const auto is_first = triangle < U::load(visible + pixel).template as<std::int32_t>();
+          const I limit = old + select(is_first, I(1), I(0));
+          store_where(depth < limit, triangle.template as<std::uint32_t>(), visible + pixel);
+          farthest.set(window.column, window.row, block, now);
           *next++ = {which, std::uint16_t(pixel / kBlock), 0};
         });
+  };
+  // Groups come by what is nearest of each.
+  constexpr std::uint32_t kGroupsBetweenLooks = 8;
+  for (std::uint32_t group = 0; group < tile.group_count; ++group) {
+    const auto [nearest, first] = tile.groups[group];
+    if (group % kGroupsBetweenLooks == kGroupsBetweenLooks - 1 && farthest.all_nearer_than(nearest)) break;
+    ask_for_corners(tile, group);
+    for (std::uint32_t which = first, end = group_end(tile, first); which < end; ++which) cover_triangle(which);
   }
   return std::uint32_t(next - tile.blocks);
 }
@@ -193,7 +255,9 @@ std::uint32_t cover_blocks(const CoverTile& tile, std::uint32_t which, bool earl
   const std::uint32_t local = tile.locals[which];
   const Depth depth_at(tile, which);
   std::uint32_t count = 0;
-  for_each_covered_block(*tile.triangles[which], tile, places,
+  const RasterTriangle& t = *tile.triangles[which];
+  const auto none = [](std::uint32_t, std::uint32_t) TWINSHADE_LAMBDA { return 0u; };
+  for_each_covered_block(t, tile, Box(t, tile), places, none,
                          [&](const auto& window, std::size_t block, BlockInts inmost) TWINSHADE_LAMBDA {
                            const std::size_t pixel = window.pixel(block);
                            const F depth = depth_at(window.x(block), window.y(block));

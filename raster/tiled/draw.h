@@ -100,6 +100,7 @@ class TileWorker {
  private:
   void gather_triangles(std::uint32_t tile);
   void shade_visible();  // shade_pass.cpp
+  void sort_groups();
   void shade_batch();
   void shade_in_order();  // in_order_pass.cpp
   void resolve_in_order();
@@ -123,6 +124,7 @@ class TileWorker {
   std::vector<const RasterTriangle*> triangles_;
   std::vector<std::uint32_t> locals_;
   std::vector<LocalPrimitive> primitives_;
+  std::vector<TriangleGroup> groups_;  // shade_pass.cpp
 
   std::vector<VisibleBlock> blocks_;  // of all triangles (shade_pass.cpp), or of one (in_order_pass.cpp)
   std::vector<float> block_depths_;   // in_order_pass.cpp

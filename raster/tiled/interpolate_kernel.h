@@ -202,7 +202,7 @@ class Interpolator {
         depth.at(x, y).store(frag_coord_ + 2 * std::size_t(call_.stride) + i);
         reciprocal_w.at(x, y).store(frag_coord_ + 3 * std::size_t(call_.stride) + i);
       }
-      if (call_.front_facing) U(primitive.front_facing).store(call_.front_facing + i);
+      if (call_.front_facing) U(primitive.native->front_facing).store(call_.front_facing + i);
     }
   }
 

@@ -42,7 +42,8 @@ struct TriangleMasks {
   // Wholly within the view volume and over a pixel centre of the frame. Not those of zero area, culled, between
   // centres, or beyond kSnapLimit.
   std::uint32_t visible;
-  std::uint32_t cut;  // by the view volume's planes
+  std::uint32_t cut;    // by the view volume's planes
+  std::uint32_t front;  // counter-clockwise
 };
 
 // A primitive (exact attributes) or a triangle (native ones: clipping may make several of a primitive) in a tile.
@@ -50,7 +51,6 @@ struct LocalPrimitive {
   std::uint32_t primitive;
   const NativeTriangle* native;  // null with exact attributes
   const float* clipped_inputs;   // of the native triangle's chunk
-  std::uint32_t front_facing;    // native only
 };
 
 // Vertex data as the arithmetic of shaders/exact/attributes.glsl reads it.
@@ -69,18 +69,27 @@ struct VisibleBlock {
   std::uint16_t coverage;  // bit i: pixel i of the block
 };
 
+// Triangles of a tile that follow each other, kTrianglesTogether of them or, at the end, what is left.
+struct TriangleGroup {
+  float nearest;  // the least RasterTriangle::nearest
+  std::uint32_t first;
+};
+inline constexpr std::uint32_t kTrianglesTogether = 16;
+
 // Triangles of one tile in primitive order.
 struct CoverTile {
   const RasterTriangle* const* triangles;
   const std::uint32_t* locals;  // of each, index into the tile's LocalPrimitives
   std::uint32_t count;
+  const TriangleGroup* groups;  // all triangles, in the order in which they are to be covered: by their groups' nearest
+  std::uint32_t group_count;
   const LocalPrimitive* primitives;
   const VertexData* vertices;
   std::uint32_t x, y, size;  // lower left pixel; tile size
   std::uint32_t frame_width, frame_height;
   float* depth;            // of the tile: +0 to 1
   std::uint32_t* visible;  // index into triangles, or kNotVisible
-  VisibleBlock* blocks;    // out: triangle by triangle, those that each may cover; room for kBlockRoom a pixel
+  VisibleBlock* blocks;    // out: triangle by triangle, those that each may show in; room for kBlockRoom a pixel
 };
 // For each pixel of a tile: once blocks that show nothing are dropped there is no more than one a pixel, and the next
 // triangle's take less than the other.

@@ -20,9 +20,10 @@ class TriangleSetup {
     keep_simple_ones();
     face_front();
     find_boxes();
-    const TriangleMasks masks{bits_of(visible_), bits_of(cut_)};
+    const TriangleMasks masks{bits_of(visible_), bits_of(cut_), bits_of(front_)};
     if (masks.visible == 0) return masks;
     find_edges();
+    find_nearest();
     RasterTriangle* to = call_.triangles;
     for (std::uint32_t left = masks.visible; left != 0; left &= left - 1)
       *to++ = triangle(std::uint32_t(__builtin_ctz(left)));
@@ -50,11 +51,12 @@ class TriangleSetup {
                                 TWINSHADE_LAMBDA { return registers::load<4>(&vertices[index[3 * triangle + i]].x); };
         const Int4 a = corner(k), b = corner(k + 1), c = corner(k + 2), d = corner(k + 3);
         const Int4 ab = __builtin_shufflevector(a, b, 0, 4, 1, 5), cd = __builtin_shufflevector(c, d, 0, 4, 1, 5);
-        const Int4 ab_outside = __builtin_shufflevector(a, b, 2, 6, 2, 6);
-        const Int4 cd_outside = __builtin_shufflevector(c, d, 2, 6, 2, 6);
+        const Int4 ab_rest = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+        const Int4 cd_rest = __builtin_shufflevector(c, d, 2, 6, 3, 7);
         registers::store(&x_[i][k], Int4(__builtin_shufflevector(ab, cd, 0, 1, 4, 5)));
         registers::store(&y_[i][k], Int4(__builtin_shufflevector(ab, cd, 2, 3, 6, 7)));
-        registers::store(&outside_[i][k], Int4(__builtin_shufflevector(ab_outside, cd_outside, 0, 1, 4, 5)));
+        registers::store(&outside_[i][k], Int4(__builtin_shufflevector(ab_rest, cd_rest, 0, 1, 4, 5)));
+        registers::store(&depth_[i][k], Float4(__builtin_shufflevector(ab_rest, cd_rest, 2, 3, 6, 7)));
       }
   }
 
@@ -85,6 +87,7 @@ class TriangleSetup {
       const double area = double(x1) * double(y2) - double(x2) * double(y1);
       front_[k] = area > 0 ? -1 : 0;
       back_[k] = area < 0 ? both : 0;
+      area_[k] = float(__builtin_fabs(area));
     }
     for (std::uint32_t k = 0; k < kLanes; ++k) {
       const std::int32_t x0 = x_[0][k], x1 = x_[1][k], y0 = y_[0][k], y1 = y_[1][k], front = front_[k];
@@ -132,18 +135,41 @@ class TriangleSetup {
     }
   }
 
+  // docs/raster-rule.md has the bound. It holds for triangles that are half a pixel high or more.
+  TWINSHADE_INLINE void find_nearest() {
+    const auto least = [](const auto& of, std::uint32_t k) TWINSHADE_LAMBDA {
+      const auto two = of[0][k] < of[1][k] ? of[0][k] : of[1][k];
+      return two < of[2][k] ? two : of[2][k];
+    };
+    const auto greatest = [](const auto& of, std::uint32_t k) TWINSHADE_LAMBDA {
+      const auto two = of[0][k] > of[1][k] ? of[0][k] : of[1][k];
+      return two > of[2][k] ? two : of[2][k];
+    };
+    for (std::uint32_t k = 0; k < kLanes; ++k) {
+      const std::int32_t across = greatest(x_, k) - least(x_, k), up = greatest(y_, k) - least(y_, k);
+      const float near = least(depth_, k), far = greatest(depth_, k);
+      const float bound = near - (0.25f * (far - near) + 0x1p-19f);
+      nearest_[k] = area_[k] >= float(kSubpixel / 2) * float(across + up) ? bound : -1.0f;
+    }
+  }
+
   TWINSHADE_INLINE RasterTriangle triangle(std::uint32_t k) const {
-    return {{c_[0][k], c_[1][k], c_[2][k]}, {a_[0][k], a_[1][k], a_[2][k]},
-            {b_[0][k], b_[1][k], b_[2][k]}, std::uint16_t(min_x_[k]),
-            std::uint16_t(min_y_[k]),       std::uint16_t(max_x_[k]),
-            std::uint16_t(max_y_[k]),       0,
-            std::uint32_t(front_[k])};
+    return {{c_[0][k], c_[1][k], c_[2][k]},
+            {a_[0][k], a_[1][k], a_[2][k]},
+            {b_[0][k], b_[1][k], b_[2][k]},
+            std::uint16_t(min_x_[k]),
+            std::uint16_t(min_y_[k]),
+            std::uint16_t(max_x_[k]),
+            std::uint16_t(max_y_[k]),
+            0,
+            nearest_[k]};
   }
 
   const SetUpTriangles& call_;
   alignas(64) Lanes x_[3], y_[3];
   alignas(64) Lanes outside_[3];
   alignas(64) Lanes cut_, front_, back_, visible_, min_x_, min_y_, max_x_, max_y_, a_[3], b_[3];
+  alignas(64) float depth_[3][kLanes], area_[kLanes], nearest_[kLanes];  // area: twice that, in square subpixels
   alignas(64) std::int64_t c_[3][kLanes];
 };
 

@@ -82,7 +82,6 @@ void TileWorker::gather_triangles(std::uint32_t tile) {
         const TriangleChunk& chunk = geometry.chunks[refs[i].chunk()];
         next->native = &chunk.native[refs[i].index()];
         next->clipped_inputs = chunk.clipped_inputs.data();
-        next->front_facing = triangle.front_facing;
       }
       ++next;
     }

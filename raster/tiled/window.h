@@ -30,7 +30,7 @@ enum ClipBit : std::uint32_t {  // in the order in which planes are clipped agai
 struct WindowVertex {
   std::int32_t x, y;      // subpixels; kUnusable where beyond kSnapLimit or NaN
   std::uint32_t outside;  // ClipBit set
-  std::uint32_t padding;  // setup reads 16 bytes at once
+  float depth;            // nearly that of the raster rule; negative where w is too small or too large to tell
 };
 
 // Window position in pixels and 1 / w, kept for native attributes only.

@@ -16,6 +16,9 @@ TWINSHADE_INLINE WindowPosition window_position(const float* clip, const Viewpor
           reciprocal_w};
 }
 
+// Products of three w, which exact attributes are made of, are numbers where each is within these.
+inline constexpr float kLeastW = 0x1p-24f, kGreatestW = 0x1p30f;
+
 TWINSHADE_INLINE std::int32_t snapped(float window) {
   const float subpixels = (window - 0.5f) * float(kSubpixel);
   // To nearest, ties to even: the default rounding mode is never changed.
@@ -41,7 +44,9 @@ TWINSHADE_INLINE void transform_vertices_if(const TransformVertices& call) {
   const std::size_t count = call.count;
   for (std::size_t v = 0; v < count; ++v) {
     const WindowPosition position = window_position(clip + 4 * v, viewport);
-    out[v] = {snapped(position.x), snapped(position.y), outside_planes(clip + 4 * v), 0};
+    const float w = clip[4 * v + 3];
+    const bool tells = (w >= kLeastW) & (w <= kGreatestW);
+    out[v] = {snapped(position.x), snapped(position.y), outside_planes(clip + 4 * v), tells ? position.z : -1.0f};
     if constexpr (positions) to[v] = position;
   }
 }

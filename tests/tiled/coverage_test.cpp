@@ -133,13 +133,16 @@ TEST_CASE("tiles of frames of any size are covered as wide integers say, for eve
         at_border += x0 + size > width || y0 + size > height;
       }
       const std::uint32_t local = 0;
-      const tiled::LocalPrimitive primitive{0, nullptr, nullptr, 0};
+      const tiled::LocalPrimitive primitive{0, nullptr, nullptr};
+      const tiled::TriangleGroup group{triangle->nearest, 0};
       const tiled::VertexData vertices{clip, kInOrder, nullptr, 0, 2.0f / float(width), 2.0f / float(height)};
       std::vector<float> depth(size * size, 1.0f), depths(size * size + 16);
       std::vector<std::uint32_t> visible(size * size, tiled::kNotVisible);
       std::vector<tiled::VisibleBlock> blocks(size * size / 16 + 1), covered_blocks(tiled::kBlockRoom * size * size);
       const tiled::CoverTile tile{&triangle,
                                   &local,
+                                  1,
+                                  &group,
                                   1,
                                   &primitive,
                                   &vertices,

@@ -40,7 +40,7 @@ std::uint32_t planes_outside(const float* p) {
 Wide floor_of_256th(Wide x) { return (x - ((x % 256 + 256) % 256)) / 256; }
 
 // By definition, of vertices that are in no plane's way. False where nothing can be seen.
-bool expected_triangle(const WindowVertex (&v)[3], const SetUpTriangles& call, RasterTriangle& t) {
+bool expected_triangle(const WindowVertex (&v)[3], const SetUpTriangles& call, RasterTriangle& t, bool& front) {
   Wide x[3], y[3];
   for (int i = 0; i < 3; ++i) {
     if (v[i].x == kUnusable || v[i].y == kUnusable) return false;
@@ -64,7 +64,12 @@ bool expected_triangle(const WindowVertex (&v)[3], const SetUpTriangles& call, R
   t.min_y = std::uint16_t(y0);
   t.max_x = std::uint16_t(x1);
   t.max_y = std::uint16_t(y1);
-  t.front_facing = area > 0 ? ~0u : 0u;
+  front = area > 0;
+  const Wide wide = std::max({x[0], x[1], x[2]}) - std::min({x[0], x[1], x[2]});
+  const Wide high = std::max({y[0], y[1], y[2]}) - std::min({y[0], y[1], y[2]});
+  const auto [near, far] = std::minmax({v[0].depth, v[1].depth, v[2].depth});
+  const bool thick = double(area < 0 ? -area : area) >= 128.0 * double(wide + high);
+  t.nearest = thick ? near - (0.25f * (far - near) + 0x1p-19f) : -1.0f;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
     const Wide a = y[i] - y[j], b = x[j] - x[i];
@@ -83,7 +88,7 @@ WindowVertex any_vertex(test::Random& random) {
     return std::int32_t(random.between(-reach, reach));
   };
   const std::uint32_t outside = random.below(8) == 0 ? 1u << random.below(7) : 0u;
-  return {coordinate(), coordinate(), outside, 0};
+  return {coordinate(), coordinate(), outside, float(random.between(0, 1))};
 }
 
 }  // namespace
@@ -109,6 +114,9 @@ TEST_CASE("vertices are in the window where each alone is, for every instruction
           REQUIRE(found.x == expected.x);
           REQUIRE(found.y == expected.y);
           REQUIRE(found.outside == expected.outside);
+          const float w = clip[4 * v + 3];
+          const float depth = w >= 0x1p-24f && w <= 0x1p30f ? position.z : -1.0f;
+          REQUIRE((found.depth == depth || (std::isnan(depth) && std::isnan(found.depth))));
         }
         const float a[] = {position.x, position.y, position.z, position.reciprocal_w};
         const float b[] = {positions[v].x, positions[v].y, positions[v].z, positions[v].reciprocal_w};
@@ -179,7 +187,8 @@ TEST_CASE("triangles are set up exactly, as many as there are, for every instruc
         REQUIRE((masks.cut >> k & 1) == std::uint32_t(is_cut));
         cut += is_cut;
         RasterTriangle t;
-        const bool seen = in_any == 0 && expected_triangle(v, call, t);
+        bool front = false;
+        const bool seen = in_any == 0 && expected_triangle(v, call, t, front);
         REQUIRE((masks.visible >> k & 1) == std::uint32_t(seen));
         if (!seen) continue;
         ++visible;
@@ -192,7 +201,8 @@ TEST_CASE("triangles are set up exactly, as many as there are, for every instruc
         REQUIRE(found->min_y == t.min_y);
         REQUIRE(found->max_x == t.max_x);
         REQUIRE(found->max_y == t.max_y);
-        REQUIRE(found->front_facing == t.front_facing);
+        REQUIRE((masks.front >> k & 1) == std::uint32_t(front));
+        REQUIRE(found->nearest == t.nearest);
         REQUIRE(found->primitive == 0);
         ++found;
       }

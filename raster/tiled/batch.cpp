@@ -120,7 +120,9 @@ void Batch::test_depth_of(float* tile_depth, std::uint32_t* tile_visible) {
       const std::uint32_t pixel = pixels_[k];
       const auto depth = std::bit_cast<std::uint32_t>(writes_depth ? frag_depth(k) : depths_[k]);
       const auto before = std::bit_cast<std::uint32_t>(tile_depth[pixel]);
-      const std::uint32_t takes = 0u - std::uint32_t((kept_[k] != 0) & (depth < before));
+      // Of primitives that are as deep the first one stays; kNotVisible is -1, before all of them.
+      const std::uint32_t is_first = std::int32_t(local) < std::int32_t(tile_visible[pixel]);
+      const std::uint32_t takes = 0u - std::uint32_t((kept_[k] != 0) & (depth < before + is_first));
       tile_depth[pixel] = std::bit_cast<float>((depth & takes) | (before & ~takes));
       tile_visible[pixel] = (local & takes) | (tile_visible[pixel] & ~takes);
       live_[k] = takes;

@@ -167,6 +167,15 @@ TWINSHADE_INLINE void store_where(BlockMask mask, const Simd<std::uint32_t, kBlo
 #endif
 }
 
+// The bits that depths must be less than to show at a block's pixels: of primitives that are as deep the first one
+// does, and it is less than what is one unit farther. kNotVisible is -1, before all of them, so that nothing shows
+// at 1.
+TWINSHADE_INLINE BlockInts depth_limit(const BlockInts& old_depth, const std::uint32_t* visible,
+                                       const BlockInts& number) {
+  const auto shown = Simd<std::uint32_t, kBlock>::load(visible).template as<std::int32_t>();
+  return old_depth + select(number < shown, BlockInts(1), BlockInts(0));
+}
+
 TWINSHADE_INLINE std::uint32_t group_end(const CoverTile& tile, std::uint32_t first) {
   return tile.count - first < kTrianglesTogether ? tile.count : first + kTrianglesTogether;
 }
@@ -191,9 +200,8 @@ template <class Depth>
 std::uint32_t cover_all(const CoverTile& tile) {
   using F = BlockFloats;
   using I = BlockInts;
-  using U = Simd<std::uint32_t, kBlock>;
   const StoredPlaces<Depth::kNdc> places(tile);
-  FarthestDepths farthest(tile);
+  const FarthestDepths farthest(tile);
   float* const depths = tile.depth;
   std::uint32_t* const visible = tile.visible;
   const std::uint32_t pixels = tile.size * tile.size;
@@ -222,11 +230,8 @@ std::uint32_t cover_all(const CoverTile& tile) {
                                 depth_at(window.x(block), window.y(block)).template as<std::int32_t>());
           const I old = F::load(depths + pixel).template as<std::int32_t>(), now = lanes_min(depth, old);
           now.template as<float>().store(depths + pixel);
-          // Of triangles that are as deep the first one shows: it is less than what is one unit farther. kNotVisible is
-          // -1, before all of them, so that nothing shows at 1.
-          const auto is_first = triangle < U::load(visible + pixel).template as<std::int32_t>();
-          const I limit = old + select(is_first, I(1), I(0));
-          store_where(depth < limit, triangle.template as<std::uint32_t>(), visible + pixel);
+          store_where(depth < depth_limit(old, visible + pixel, triangle), triangle.template as<std::uint32_t>(),
+                      visible + pixel);
           farthest.set(window.column, window.row, block, now);
           *next++ = {which, std::uint16_t(pixel / kBlock), 0};
         });
@@ -251,23 +256,35 @@ template <class Depth>
 std::uint32_t cover_blocks(const CoverTile& tile, std::uint32_t which, bool early_depth_test, VisibleBlock* blocks,
                            float* depths) {
   using F = BlockFloats;
+  using I = BlockInts;
   const ComputedPlaces<Depth::kNdc> places{tile};
+  const RasterTriangle& t = *tile.triangles[which];
+  const FarthestDepths farthest(tile);
+  const float nearest = early_depth_test ? t.nearest : -1.0f;
+  const auto is_hidden = [&](std::uint32_t column, std::uint32_t row)
+                             TWINSHADE_LAMBDA { return farthest.nearer_than(nearest, column, row); };
+  const Box box(t, tile);
+  if (box.all_left_out(is_hidden)) return 0;
   const std::uint32_t local = tile.locals[which];
+  const I this_one(static_cast<std::int32_t>(local));
   const Depth depth_at(tile, which);
   std::uint32_t count = 0;
-  const RasterTriangle& t = *tile.triangles[which];
-  const auto none = [](std::uint32_t, std::uint32_t) TWINSHADE_LAMBDA { return 0u; };
-  for_each_covered_block(t, tile, Box(t, tile), places, none,
-                         [&](const auto& window, std::size_t block, BlockInts inmost) TWINSHADE_LAMBDA {
-                           const std::size_t pixel = window.pixel(block);
-                           const F depth = depth_at(window.x(block), window.y(block));
-                           BlockMask inside = inmost >= BlockInts(0);
-                           if (early_depth_test) inside = inside & (depth < F::load(tile.depth + pixel));
-                           const std::uint32_t coverage = inside.bits();
-                           blocks[count] = {local, std::uint16_t(pixel / kBlock), std::uint16_t(coverage)};
-                           depth.store(depths + kBlock * std::size_t{count});
-                           count += coverage != 0;
-                         });
+  for_each_covered_block(
+      t, tile, box, places, is_hidden, [&](const auto& window, std::size_t block, I inmost) TWINSHADE_LAMBDA {
+        const std::size_t pixel = window.pixel(block);
+        const F depth = depth_at(window.x(block), window.y(block));
+        BlockMask inside = inmost >= I(0);
+        if (early_depth_test) {
+          // Whoever stores depths later does not say so here: the next triangle learns from this one's look.
+          const I old = F::load(tile.depth + pixel).template as<std::int32_t>();
+          farthest.set(window.column, window.row, block, old);
+          inside = inside & (depth.template as<std::int32_t>() < depth_limit(old, tile.visible + pixel, this_one));
+        }
+        const std::uint32_t coverage = inside.bits();
+        blocks[count] = {local, std::uint16_t(pixel / kBlock), std::uint16_t(coverage)};
+        depth.store(depths + kBlock * std::size_t{count});
+        count += coverage != 0;
+      });
   return count;
 }
 

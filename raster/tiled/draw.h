@@ -101,6 +101,7 @@ class TileWorker {
   void gather_triangles(std::uint32_t tile);
   void shade_visible();  // shade_pass.cpp
   void sort_groups();
+  std::uint32_t group_end(std::uint32_t first) const { return std::min(tile_.count, first + kTrianglesTogether); }
   void shade_batch();
   void shade_in_order();  // in_order_pass.cpp
   void resolve_in_order();
@@ -116,6 +117,7 @@ class TileWorker {
 
   CoverTile tile_{};
   AlignedArray<float> depth_;
+  AlignedArray<float> farthest_;
   AlignedArray<std::uint32_t> visible_;  // triangles; in primitive order (in_order_pass.cpp) LocalPrimitives
   // Of the tile's pixels in memory order, when shading is done; clear where nothing is visible.
   AlignedArray<float> color_;                 // RGBA; room for a pixel more, for what is not stored

@@ -42,45 +42,41 @@ TWINSHADE_INLINE std::int32_t greatest_lane(const Simd<std::int32_t, W>& x) {
   }
 }
 
-// Columns and rows: of blocks, from the tile's first one.
+// CoverTile::farthest. Columns and rows: of blocks, from the tile's first one.
 class FarthestDepths {
-  static constexpr std::uint32_t kMost = 32;  // across a tile of 128 pixels
-  // Windows of 4 x 4 blocks may reach three beyond the tile.
-  static constexpr std::uint32_t kRows = kMost + 3, kStride = kMost + 4;
-
  public:
-  TWINSHADE_INLINE explicit FarthestDepths(const CoverTile& tile) : blocks_(tile.size / 4) {
-    for (auto& row : depths_)
-      for (std::uint32_t i = 0; i < kStride; i += 4) registers::store(row + i, Int4{} + kFarthest);
-  }
+  TWINSHADE_INLINE explicit FarthestDepths(const CoverTile& tile) : depths_(tile.farthest), blocks_(tile.size / 4) {}
 
   // Bit k: all of block k, of the window that begins here, is nearer than `depth`.
   TWINSHADE_INLINE std::uint32_t nearer_than(float depth, std::uint32_t column, std::uint32_t row) const {
-    return (rows<16>(depths_[row] + column) < BlockInts(number::bits<std::int32_t>(depth))).bits();
+    return (rows<16>(at(column, row)) < BlockInts(number::bits<std::int32_t>(depth))).bits();
   }
   // Whether all of the tile is.
   TWINSHADE_INLINE bool all_nearer_than(float depth) const {
     BlockInts farthest(0);
     for (std::uint32_t row = 0; row < blocks_; row += 4)
       for (std::uint32_t column = 0; column < blocks_; column += 4)
-        farthest = lanes_max(farthest, rows<16>(depths_[row] + column));
+        farthest = lanes_max(farthest, rows<16>(at(column, row)));
     return greatest_lane(farthest) < number::bits<std::int32_t>(depth);
   }
 
   // depths: their bits, of the pixels of block k of the window that begins here.
-  TWINSHADE_INLINE void set(std::uint32_t column, std::uint32_t row, std::size_t k, const BlockInts& depths) {
-    (depths_[row] + column)[kPlaces[k]] = greatest_lane(depths);
+  TWINSHADE_INLINE void set(std::uint32_t column, std::uint32_t row, std::size_t k, const BlockInts& depths) const {
+    at(column, row)[kPlaces[k]] = number::bits<float>(greatest_lane(depths));
   }
 
  private:
+  TWINSHADE_INLINE float* at(std::uint32_t column, std::uint32_t row) const {
+    return depths_ + std::size_t{row} * kFarthestStride + column;
+  }
   // Of W / 4 rows, each of four blocks.
   template <int W>
-  static TWINSHADE_INLINE Simd<std::int32_t, W> rows(const std::int32_t* from) {
+  static TWINSHADE_INLINE Simd<std::int32_t, W> rows(const float* from) {
     using I = Simd<std::int32_t, W>;
     if constexpr (W == 4) {
-      return I::load(from);
+      return Simd<float, W>::load(from).template as<std::int32_t>();
     } else {
-      const auto low = rows<W / 2>(from), high = rows<W / 2>(from + W / 8 * kStride);
+      const auto low = rows<W / 2>(from), high = rows<W / 2>(from + W / 8 * kFarthestStride);
       I all;
       if constexpr (I::whole)
         all.v = some_lanes<0, W>(low.v, high.v);
@@ -93,12 +89,12 @@ class FarthestDepths {
   // Of a window's blocks, from its first one.
   static constexpr auto kPlaces = [] {
     std::array<std::uint32_t, 16> places{};
-    for (std::uint32_t k = 0; k < 16; ++k) places[k] = k / 4 * kStride + k % 4;
+    for (std::uint32_t k = 0; k < 16; ++k) places[k] = k / 4 * kFarthestStride + k % 4;
     return places;
   }();
+  // From +0 to 1: they are compared by their bits. What they are compared with may be negative.
+  float* const depths_;
   const std::uint32_t blocks_;  // across the tile
-  // As bits: depths are from +0 to 1, and compare so. What they are compared with may be negative.
-  alignas(64) std::int32_t depths_[kRows][kStride];
 };
 
 }  // namespace TWINSHADE_ISA_NAMESPACE

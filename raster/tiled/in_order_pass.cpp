@@ -1,6 +1,7 @@
 // Shaders that discard, write gl_FragDepth or have side effects: each covered pixel is shaded (where the shader has
 // derivatives, the rest of its quad, too), in primitive order, before the depth test decides. Batches hold pixels of
-// several triangles; the depth test then goes through them in order.
+// several triangles; the depth test then goes through them in order. Where the shader does no more than discard nobody
+// can tell the order, and what is nearest comes first.
 #include <algorithm>
 
 #include "cpu_shaders/runtime/denormals.h"
@@ -9,13 +10,14 @@
 namespace twinshade::tiled {
 
 void TileWorker::shade_in_order() {
-  // A fragment that is hidden now stays hidden, since depth only decreases: it need not run, if nobody can tell.
+  // A fragment that is hidden now stays hidden, since depth only decreases: it need not run, if nobody can tell. Nor
+  // can anybody tell the order then.
   const bool early_depth_test = !draw_.module.writes_depth && !draw_.module.has_side_effects;
   const std::size_t pixels = std::size_t(tile_.size) * tile_.size;
   std::fill_n(color_.data(), 4 * pixels, 0.0f);
   blocks_.resize(pixels / 16);
   block_depths_.resize(pixels);
-  for (std::uint32_t which = 0; which < tile_.count; ++which) {
+  const auto shade = [&](std::uint32_t which) {
     std::uint32_t count;
     {
       const FlushDenormals flush;
@@ -25,6 +27,13 @@ void TileWorker::shade_in_order() {
       taken += batch_.add(&blocks_[taken], count - taken, block_depths_.data() + 16 * taken);
       if (batch_.full()) resolve_in_order();
     }
+  };
+  if (early_depth_test) {
+    sort_groups();
+    for (const TriangleGroup& group : groups_)
+      for (std::uint32_t which = group.first, end = group_end(which); which < end; ++which) shade(which);
+  } else {
+    for (std::uint32_t which = 0; which < tile_.count; ++which) shade(which);
   }
   if (batch_.count() > 0) resolve_in_order();
   ticks_.lap(Stage::raster);

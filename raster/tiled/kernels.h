@@ -88,9 +88,12 @@ struct CoverTile {
   std::uint32_t x, y, size;  // lower left pixel; tile size
   std::uint32_t frame_width, frame_height;
   float* depth;            // of the tile: +0 to 1
-  std::uint32_t* visible;  // index into triangles, or kNotVisible
+  std::uint32_t* visible;  // index into triangles (cover_one: into LocalPrimitives), or kNotVisible
+  float* farthest;         // kFarthestRoom of them, 1 before anything is covered: see farthest_depths_kernel.h
   VisibleBlock* blocks;    // out: triangle by triangle, those that each may show in; room for kBlockRoom a pixel
 };
+// Of the blocks of a tile of 128 pixels, with a border that windows of 4 x 4 blocks reach into.
+inline constexpr std::uint32_t kFarthestStride = 36, kFarthestRoom = 35 * kFarthestStride;
 // For each pixel of a tile: once blocks that show nothing are dropped there is no more than one a pixel, and the next
 // triangle's take less than the other.
 inline constexpr std::uint32_t kBlockRoom = 2;

@@ -14,7 +14,7 @@ void TileWorker::sort_groups() {
   groups_.clear();
   for (std::uint32_t first = 0; first < tile_.count; first += kTrianglesTogether) {
     float nearest = 1;
-    for (std::uint32_t i = first, end = std::min(tile_.count, first + kTrianglesTogether); i < end; ++i)
+    for (std::uint32_t i = first, end = group_end(first); i < end; ++i)
       nearest = std::min(nearest, tile_.triangles[i]->nearest);
     groups_.push_back({nearest, first});
   }

@@ -20,6 +20,7 @@ TileWorker::TileWorker(const Draw& draw)
     : draw_(draw),
       batch_(draw),
       depth_(std::size_t(draw.grid.tile_size) * draw.grid.tile_size),
+      farthest_(kFarthestRoom),
       visible_(std::size_t(draw.grid.tile_size) * draw.grid.tile_size),
       color_((std::size_t(draw.grid.tile_size) * draw.grid.tile_size + 1) * 4),
       primitive_id_(std::size_t(draw.grid.tile_size) * draw.grid.tile_size) {
@@ -29,6 +30,7 @@ TileWorker::TileWorker(const Draw& draw)
   tile_.frame_height = draw.grid.frame_height;
   tile_.depth = depth_.data();
   tile_.visible = visible_.data();
+  tile_.farthest = farthest_.data();
 }
 
 void TileWorker::draw_tile(std::uint32_t tile) {
@@ -38,6 +40,7 @@ void TileWorker::draw_tile(std::uint32_t tile) {
   const std::size_t pixels = std::size_t(tile_.size) * tile_.size;
   clear_depth(tile_.depth, pixels);
   std::fill_n(tile_.visible, pixels, kNotVisible);
+  std::fill_n(tile_.farthest, kFarthestRoom, 1.0f);
   batch_.begin_tile(tile_.x, tile_.y);
   gather_triangles(tile);
   if (tile_.count > 0) {

@@ -136,7 +136,7 @@ TEST_CASE("tiles of frames of any size are covered as wide integers say, for eve
       const tiled::LocalPrimitive primitive{0, nullptr, nullptr};
       const tiled::TriangleGroup group{triangle->nearest, 0};
       const tiled::VertexData vertices{clip, kInOrder, nullptr, 0, 2.0f / float(width), 2.0f / float(height)};
-      std::vector<float> depth(size * size, 1.0f), depths(size * size + 16);
+      std::vector<float> farthest(tiled::kFarthestRoom, 1.0f), depth(size * size, 1.0f), depths(size * size + 16);
       std::vector<std::uint32_t> visible(size * size, tiled::kNotVisible);
       std::vector<tiled::VisibleBlock> blocks(size * size / 16 + 1), covered_blocks(tiled::kBlockRoom * size * size);
       const tiled::CoverTile tile{&triangle,
@@ -153,6 +153,7 @@ TEST_CASE("tiles of frames of any size are covered as wide integers say, for eve
                                   height,
                                   depth.data(),
                                   visible.data(),
+                                  farthest.data(),
                                   covered_blocks.data()};
       kernels->cover(tile);
       const std::uint32_t block_count = kernels->cover_one(tile, 0, false, blocks.data(), depths.data());

@@ -87,8 +87,9 @@ TEST_CASE("no pixel of a triangle is nearer than its setup says") {
       std::vector<float> depths(kTile * kTile + 16);
       for (std::uint32_t y = t.min_y / kTile * kTile; y <= t.max_y; y += kTile)
         for (std::uint32_t x = t.min_x / kTile * kTile; x <= t.max_x; x += kTile) {
-          const CoverTile tile{&triangle, &local, 1,     &group, 1,       &primitive, &vertices, x,
-                               y,         kTile,  width, height, nullptr, nullptr,    nullptr};
+          std::vector<float> farthest(kFarthestRoom, 1.0f);
+          const CoverTile tile{&triangle, &local, 1,     &group, 1,       &primitive, &vertices,       x,
+                               y,         kTile,  width, height, nullptr, nullptr,    farthest.data(), nullptr};
           const std::uint32_t count = kernels.cover_one(tile, 0, false, blocks.data(), depths.data());
           for (std::uint32_t b = 0; b < count; ++b)
             for (std::uint32_t k = 0; k < 16; ++k) {
@@ -128,19 +129,21 @@ TEST_CASE("of equal depths the first primitive stays, whatever is covered first"
       test::add_triangle(bundle, corner, random);
     }
     test::finish(bundle);
-    for (const AttributeMode mode : {AttributeMode::exact, AttributeMode::native}) {
-      DrawOptions options;
-      options.attributes = mode;
-      const Frame frame = draw_tiled(bundle, test::echo_module(), options);
-      std::size_t first = 0;
-      for (std::size_t p = 0; p < frame.coverage.size(); ++p) {
-        if (!frame.coverage[p]) continue;
-        const bool last_corner = frame.primitive_id[p] == 2 * kLayers - 1;
-        REQUIRE((frame.primitive_id[p] == 0 || last_corner));
-        first += frame.primitive_id[p] == 0;
+    for (float& value : bundle.attributes[0].values) value = 1;  // no fragment is discarded
+    for (const ShaderModule* module : {&test::echo_module(), &test::discard_module()})
+      for (const AttributeMode mode : {AttributeMode::exact, AttributeMode::native}) {
+        DrawOptions options;
+        options.attributes = mode;
+        const Frame frame = draw_tiled(bundle, *module, options);
+        std::size_t first = 0;
+        for (std::size_t p = 0; p < frame.coverage.size(); ++p) {
+          if (!frame.coverage[p]) continue;
+          const bool last_corner = frame.primitive_id[p] == 2 * kLayers - 1;
+          REQUIRE((frame.primitive_id[p] == 0 || last_corner));
+          first += frame.primitive_id[p] == 0;
+        }
+        CHECK(first > 700);
       }
-      CHECK(first > 700);
-    }
   }
 }
 
@@ -182,7 +185,7 @@ TEST_CASE("layers behind what covers a tile are not covered, in whatever order t
       }
       std::sort(groups.begin(), groups.end(), [](auto a, auto b) { return a.nearest < b.nearest; });
       const VertexData vertices{clip.data(), indices.data(), nullptr, 0, 2.0f / kTile, 2.0f / kTile};
-      std::vector<float> depth(kTile * kTile, 1.0f);
+      std::vector<float> depth(kTile * kTile, 1.0f), farthest(kFarthestRoom, 1.0f);
       std::vector<std::uint32_t> visible(kTile * kTile, kNotVisible);
       std::vector<VisibleBlock> blocks(kBlockRoom * kTile * kTile);
       const CoverTile tile{pointers.data(),
@@ -199,6 +202,7 @@ TEST_CASE("layers behind what covers a tile are not covered, in whatever order t
                            kTile,
                            depth.data(),
                            visible.data(),
+                           farthest.data(),
                            blocks.data()};
       const std::uint32_t count = kernels->cover(tile);
       // All blocks once, those on the diagonal twice, of each of the first group's four pairs in its own order.

@@ -52,11 +52,14 @@ inline double log1p(double x) {  // W. Kahan: the rounding of 1 + x divided out
   if (u - u != 0) return portable::log(u);
   return portable::log(u) * (x / (u - 1));
 }
+// The value of an odd function at x, of which |x| has `value`. Zero is doubled, not passed on: converted to float it
+// would become what x was converted from, by some compilers, and that may be a denormal that was to be flushed.
+inline double odd(double x, double value) { return x < 0 ? -value : x == 0 ? x + x : value; }
 inline double asinh(double x) {
   const double a = x < 0 ? -x : x;
   const double value =
       a > 0x1p+500 ? portable::log(a) + portable::log(2) : log1p(a + a * a / (1 + __builtin_sqrt(a * a + 1)));
-  return x < 0 ? -value : x == 0 ? x : value;
+  return odd(x, value);
 }
 inline double acosh(double x) {
   if (!(x >= 1)) return __builtin_nan("");
@@ -66,8 +69,7 @@ inline double acosh(double x) {
 }
 inline double atanh(double x) {
   const double a = x < 0 ? -x : x;
-  const double value = 0.5 * log1p(2 * a / (1 - a));
-  return x < 0 ? -value : x == 0 ? x : value;
+  return odd(x, 0.5 * log1p(2 * a / (1 - a)));
 }
 
 }  // namespace detail

@@ -2,6 +2,7 @@
 // by hand and shades nothing.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <new>
@@ -227,6 +228,29 @@ TEST_CASE("denormals are flushed within a scope and kept again after it") {
     CHECK(flushed_again);
   }
   CHECK(halves() == 0x1p-127f);
+}
+
+// Compilers may take a double that came from a float, unchanged, for that float.
+TEST_CASE("odd functions of denormals are zeros of their sign where denormals are flushed") {
+  volatile float denormals[] = {0x1p-149f, 0x1.8p-140f, 0x1.fffffcp-127f};
+  for (const volatile float& denormal : denormals)
+    for (const float sign : {1.0f, -1.0f}) {
+      const float input = denormal * sign;
+      float results[8];
+      {
+        const FlushDenormals flush;
+        const Plain<float, 1> x(input);
+        int i = 0;
+        for (const auto& y : {glsl::sin(x), glsl::tan(x), glsl::asin(x), glsl::atan(x), glsl::sinh(x), glsl::tanh(x),
+                              glsl::asinh(x), glsl::atanh(x)})
+          results[i++] = y.e[0];
+      }
+      CAPTURE(input);
+      for (const float result : results) {
+        CHECK(std::fpclassify(result) == FP_ZERO);
+        CHECK(std::signbit(result) == (sign < 0));
+      }
+    }
 }
 
 TEST_CASE_TEMPLATE("derivatives are the differences within each row and column of a quad", N, Lanes<4>, Lanes<8>,

@@ -19,6 +19,9 @@ inline constexpr std::uint32_t kWindow = 16;
 // Edge values are cut off here: farther from 0 than any step within a window (15 * (|a| + |b|) < 2^29) can lead back.
 inline constexpr std::int64_t kEdgeLimit = std::int64_t{1} << 30;
 
+// The bits of 1.0f, the depth where nothing was drawn.
+inline constexpr std::int32_t kFarthest = 0x3f800000;
+
 // A number of each edge. The fourth lane means nothing.
 using Edges = Register<std::int64_t, 4>;
 using Edges32 = Register<std::int32_t, 4>;

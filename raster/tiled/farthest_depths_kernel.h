@@ -11,9 +11,6 @@
 namespace twinshade::tiled {
 inline namespace TWINSHADE_ISA_NAMESPACE {
 
-// The bits of 1.0f, the depth where nothing was drawn.
-inline constexpr std::int32_t kFarthest = 0x3f800000;
-
 // Lanes first .. first + count - 1 of those of a and then b.
 template <int first, int count, class V>
 TWINSHADE_INLINE auto some_lanes(const V& a, const V& b) {

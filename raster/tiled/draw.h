@@ -54,8 +54,8 @@ class Batch {
   // Keeps what was added beyond kBatchSize.
   void clear();
 
-  // Of shaded invocations, in order, those that the shader kept and that are nearer than the tile's depth become what
-  // the tile shows; the others are not stored.
+  // Of shaded invocations, in order, those that the shader kept and that are nearer than the tile's depth, or as near
+  // and of an earlier LocalPrimitive, become what the tile shows; the others are not stored.
   void test_depth(float* tile_depth, std::uint32_t* tile_visible);
   // Colours of covered pixels to the tile's RGBA pixels; attributes and unrounded colours, where asked for, to the
   // frame.

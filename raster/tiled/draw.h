@@ -99,9 +99,9 @@ class TileWorker {
 
  private:
   void gather_triangles(std::uint32_t tile);
-  void shade_visible();  // shade_pass.cpp
   void sort_groups();
   std::uint32_t group_end(std::uint32_t first) const { return std::min(tile_.count, first + kTrianglesTogether); }
+  void shade_visible();  // shade_pass.cpp
   void shade_batch();
   void shade_in_order();  // in_order_pass.cpp
   void resolve_in_order();
@@ -126,7 +126,7 @@ class TileWorker {
   std::vector<const RasterTriangle*> triangles_;
   std::vector<std::uint32_t> locals_;
   std::vector<LocalPrimitive> primitives_;
-  std::vector<TriangleGroup> groups_;  // shade_pass.cpp
+  std::vector<TriangleGroup> groups_;  // where the order of triangles does not count
 
   std::vector<VisibleBlock> blocks_;  // of all triangles (shade_pass.cpp), or of one (in_order_pass.cpp)
   std::vector<float> block_depths_;   // in_order_pass.cpp

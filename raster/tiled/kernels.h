@@ -92,7 +92,8 @@ struct CoverTile {
   float* farthest;         // kFarthestRoom of them, 1 before anything is covered: see farthest_depths_kernel.h
   VisibleBlock* blocks;    // out: triangle by triangle, those that each may show in; room for kBlockRoom a pixel
 };
-// Of the blocks of a tile of 128 pixels, with a border that windows of 4 x 4 blocks reach into.
+// Of the 32 x 32 blocks of a tile of 128 pixels, row by row, with three more each way that windows of 4 x 4 blocks
+// reach into.
 inline constexpr std::uint32_t kFarthestStride = 36, kFarthestRoom = 35 * kFarthestStride;
 // For each pixel of a tile: once blocks that show nothing are dropped there is no more than one a pixel, and the next
 // triangle's take less than the other.

@@ -96,4 +96,20 @@ void TileWorker::gather_triangles(std::uint32_t tile) {
   tile_.primitives = primitives_.data();
 }
 
+// Groups by what is nearest of each: what they cover hides others, which cost little then. Of a few neighbours each,
+// lest vertices be read in no order at all.
+void TileWorker::sort_groups() {
+  groups_.clear();
+  for (std::uint32_t first = 0; first < tile_.count; first += kTrianglesTogether) {
+    float nearest = 1;
+    for (std::uint32_t i = first, end = group_end(first); i < end; ++i)
+      nearest = std::min(nearest, tile_.triangles[i]->nearest);
+    groups_.push_back({nearest, first});
+  }
+  std::sort(groups_.begin(), groups_.end(),
+            [](const TriangleGroup& a, const TriangleGroup& b) { return a.nearest < b.nearest; });
+  tile_.groups = groups_.data();
+  tile_.group_count = std::uint32_t(groups_.size());
+}
+
 }  // namespace twinshade::tiled

@@ -133,26 +133,27 @@ TWINSHADE_FUNCTION Float16 odd_blocks(const Float16& a, const Float16& b) {
   return shuffle(a, b, [](int k) TWINSHADE_LAMBDA { return 4 + k / 4 % 2 * 8 + k % 4 + (k >= 8 ? 16 : 0); });
 }
 
-// Block b of rows[i] becomes block i of rows[b], for the register's 1, 2 or 4 blocks of 128 bits; rows are those j,
-// j + 4 ... of W.
-template <class V, int W>
-TWINSHADE_FUNCTION void transpose_blocks(V (&rows)[W]) {
-  constexpr auto low = [](int k) TWINSHADE_LAMBDA { return k % (W / 2) + (k >= W / 2 ? W : 0); };
-  constexpr auto high = [](int k) TWINSHADE_LAMBDA { return W / 2 + k % (W / 2) + (k >= W / 2 ? W : 0); };
-  if constexpr (W == 8) {
+// Rows of lanes 0 to W - 1, in memory, become rows of four floats each: row 4 * b + j has floats 4 * b .. of lanes j, j
+// + 4 ..., as transpose_groups takes them. Registers of 8 are put together from halves as they are loaded: nothing has
+// to cross the middle of a register.
+template <int W>
+TWINSHADE_FUNCTION void load_by_fours(const float (&lanes)[W][W], Register<float, W> (&rows)[W]) {
+  if constexpr (W == 16) {
+    constexpr auto low = [](int k) TWINSHADE_LAMBDA { return k % 8 + (k >= 8 ? 16 : 0); };
+    constexpr auto high = [](int k) TWINSHADE_LAMBDA { return 8 + k % 8 + (k >= 8 ? 16 : 0); };
+    unrolled<W>([&](auto i) TWINSHADE_LAMBDA { rows[i] = registers::load<W>(lanes[i]); });
     unrolled<4>([&](auto j) TWINSHADE_LAMBDA {
-      const V a = rows[j], b = rows[j + 4];
-      rows[j] = shuffle(a, b, low);
-      rows[j + 4] = shuffle(a, b, high);
-    });
-  } else if constexpr (W == 16) {
-    unrolled<4>([&](auto j) TWINSHADE_LAMBDA {
-      const V ab01 = shuffle(rows[j], rows[j + 4], low), ab23 = shuffle(rows[j], rows[j + 4], high);
-      const V cd01 = shuffle(rows[j + 8], rows[j + 12], low), cd23 = shuffle(rows[j + 8], rows[j + 12], high);
+      const auto ab01 = shuffle(rows[j], rows[j + 4], low), ab23 = shuffle(rows[j], rows[j + 4], high);
+      const auto cd01 = shuffle(rows[j + 8], rows[j + 12], low), cd23 = shuffle(rows[j + 8], rows[j + 12], high);
       rows[j] = even_blocks(ab01, cd01);
       rows[j + 4] = odd_blocks(ab01, cd01);
       rows[j + 8] = even_blocks(ab23, cd23);
       rows[j + 12] = odd_blocks(ab23, cd23);
+    });
+  } else {
+    unrolled<W>([&](auto i) TWINSHADE_LAMBDA {
+      const auto four = [&](int lane) TWINSHADE_LAMBDA { return registers::load<4>(lanes[lane] + i / 4 * 4); };
+      rows[i] = registers::texel_row<W>(four, i % 4);
     });
   }
 }
@@ -199,6 +200,9 @@ struct TapTable {
     taps.weight.y.store(weight[first + 1]);
     taps.weight.z.store(weight[first + 2]);
     taps.weight.w.store(weight[first + 3]);
+    // Really through memory: clang++ would spread lanes from the register that was stored, by an instruction that takes
+    // as long as several loads that spread.
+    if constexpr (W == 8 && Simd<float, W>::whole) __asm__("" : "+m"(weight));
   }
 };
 
@@ -297,8 +301,7 @@ TWINSHADE_FUNCTION void filter_floats(const float* texels, const TapTable<All, T
       constexpr int kFirst = g * floats;
       unrolled<kParts>([&](auto part) TWINSHADE_LAMBDA {
         Register<float, W> rows[W];
-        unrolled<W>([&](auto i) TWINSHADE_LAMBDA { rows[i] = registers::load<W>(parts[g][part][i]); });
-        transpose_blocks(rows);
+        load_by_fours<W>(parts[g][part], rows);
         unrolled<W / 4>([&](auto i) TWINSHADE_LAMBDA {
           put_four(std::integral_constant<int, kFirst + part * W + 4 * i>(), rows + 4 * i);
         });

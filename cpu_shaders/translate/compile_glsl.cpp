@@ -16,6 +16,7 @@
 #include "cpu_shaders/source/preprocess.h"
 #include "cpu_shaders/translate/find_recursion.h"
 #include "cpu_shaders/translate/limits.h"
+#include "cpu_shaders/translate/locate_outputs.h"
 #include "cpu_shaders/translate/mark_divisions.h"
 #include "cpu_shaders/translate/source_lines.h"
 
@@ -109,6 +110,7 @@ std::vector<std::uint32_t> compile(const ShaderSource& source, int version, bool
     throw UserError(first_glslang_error(source, shader.getInfoLog()));
   refuse_recursion(*shader.getIntermediate(), source);
   mark_divisions(*shader.getIntermediate());
+  locate_outputs(*shader.getIntermediate());
   glslang::TProgram program;
   program.addShader(&shader);
   if (!program.link(messages)) throw UserError(link_error(source, program.getInfoLog()));

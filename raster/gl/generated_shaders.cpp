@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cpu_shaders/rewrite/make_exact.h"
+#include "cpu_shaders/source/output_locations.h"
 #include "cpu_shaders/source/preprocess.h"
 #include "raster/gl/new_keywords.h"
 
@@ -256,12 +257,18 @@ std::string ShaderGenerator::fragment(const std::string& outputs, const std::str
   return text + "}\n";
 }
 
-// The first output, as the frame keeps it: missing components 0, integers by bit pattern.
+// The output of location 0, else the first, as the frame keeps it: missing components 0, integers by bit pattern.
 std::string ShaderGenerator::color_expression() const {
   if (shader_.outputs.empty()) return "vec4(0.0)";
   const Output* first = &shader_.outputs.front();
-  for (const Output& output : shader_.outputs)
+  const auto count = [](const Output& output) { return std::max(1, int(output.array_length)); };
+  OutputLocations locations;
+  for (const Output& output : shader_.outputs) {
     if (output.location == 0) first = &output;
+    if (output.location >= 0) locations.take(output.location, count(output));
+  }
+  for (const Output& output : shader_.outputs)
+    if (output.location < 0 && locations.take_lowest(count(output)) == 0) first = &output;
   std::string text = "vec4(";
   for (std::uint32_t c = 0; c < 4; ++c) {
     std::string value = "0.0";

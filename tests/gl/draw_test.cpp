@@ -158,6 +158,10 @@ TEST_CASE("the first output is the one at location 0; what it lacks is 0, intege
     CHECK(color("layout(location = 1) out vec4 b; layout(location = 0) out vec4 a; void main() { a = vec4(1); b = "
                 "vec4(2); }",
                 mode) == Color{1, 1, 1, 1});
+    CHECK(color("out vec4 b; layout(location = 0) out vec4 a; void main() { a = vec4(1); b = vec4(2); }", mode) ==
+          Color{1, 1, 1, 1});
+    CHECK(color("layout(location = 1) out vec4 b; out vec4 a; void main() { a = vec4(1); b = vec4(2); }", mode) ==
+          Color{1, 1, 1, 1});
     CHECK(color("out vec4 a, b, c, d, e, f, g, h; void main() { a = vec4(5); h = a * 2.0; }", mode) ==
           Color{5, 5, 5, 5});
     CHECK(color("out vec4 a[2]; void main() { a[0] = vec4(5); a[1] = vec4(6); }", mode) == Color{5, 5, 5, 5});

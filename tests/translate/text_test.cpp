@@ -194,6 +194,22 @@ TEST_CASE("reflection lists inputs, uniforms by path, resources and what the sha
   CHECK(r.no_float64_reason.empty());
 }
 
+TEST_CASE("outputs without a location get the lowest ones that are free, in the order of declaration") {
+  const auto locations = [](const std::string& outputs) {
+    std::string text;
+    const Reflection r = of("#version 450\n" + outputs + "\nvoid main() { b = vec4(1); a = b; }\n").reflection;
+    for (const char* name : {"a", "b", "c", "d"})
+      for (const auto& output : r.outputs)
+        if (output.name == name) text += name + std::to_string(output.location) + " ";
+    return text;
+  };
+  CHECK(locations("out vec4 a; out vec4 b;") == "a0 b1 ");
+  CHECK(locations("layout(location = 0) out vec4 a; out vec4 b;") == "a0 b1 ");
+  CHECK(locations("out vec4 b; layout(location = 0) out vec4 a;") == "a0 b1 ");
+  CHECK(locations("layout(location = 1) out vec4 a; out vec4 c, b; out float d;") == "a1 b2 c0 d3 ");
+  CHECK(locations("out vec4 a; layout(location = 1) out vec4 b; out vec4 c[2]; out ivec2 d;") == "a0 b1 c2 d4 ");
+}
+
 TEST_CASE("textures that are read at an input's coordinates say which") {
   struct Read {
     const char* main;

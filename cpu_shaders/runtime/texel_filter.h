@@ -278,6 +278,8 @@ TWINSHADE_FUNCTION void filter_floats(const float* texels, const TapTable<All, T
       for (int tap = 0; tap < T; ++tap) {
         at[tap] = taps.place(tap, first_lane + lane);
         weight[tap] = registers::splat<float, W>(taps.weight[tap][first_lane + lane]);
+        // Its first four are in the same register: clang++ would load and keep them once more.
+        if constexpr (W == 8 && kParts > 0 && kFour != 0) __asm__("" : "+x"(weight[tap]));
       }
       unrolled<G>([&](auto g) TWINSHADE_LAMBDA {
         const float* const left = texels + starts.at(g, first_lane + lane);

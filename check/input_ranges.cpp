@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -26,8 +27,8 @@ std::vector<std::string> words_of(const std::string& text) {
 
 // Decimal, or a hex float as C writes it.
 double number(const std::string& text, const std::string& where) {
-  const bool negative = text.rfind('-', 0) == 0;
-  std::string_view digits = std::string_view(text).substr(negative ? 1 : 0);
+  const bool negative = text.rfind('-', 0) == 0, has_sign = negative || text.rfind('+', 0) == 0;
+  std::string_view digits = std::string_view(text).substr(has_sign ? 1 : 0);
   const bool hex = digits.substr(0, 2) == "0x";
   if (hex) digits.remove_prefix(2);
   const bool second_sign = digits.substr(0, 1) == "-";  // from_chars would take it
@@ -47,10 +48,17 @@ std::pair<double, double> interval(const std::string& word, const std::string& w
   return {low, high};
 }
 
+std::optional<InputRange::Kind> kind_of(const std::string& word) {
+  if (word == "unit") return InputRange::Kind::unit;
+  if (word == "finite") return InputRange::Kind::finite;
+  if (word == "any") return InputRange::Kind::any;
+  return std::nullopt;
+}
+
 // What stands behind a range is for people, or one that was mistyped.
 void require_end(const std::vector<std::string>& words, std::size_t end, const std::string& where) {
   if (end == words.size()) return;
-  const bool word = std::isalpha(static_cast<unsigned char>(words[end][0])) != 0;
+  const bool word = std::isalpha(static_cast<unsigned char>(words[end][0])) != 0 && !kind_of(words[end]);
   if (!word || words[end].find("..") != std::string::npos)
     throw UserError(where + "\"" + words[end] + "\" is too much behind the range: // begins a comment");
 }
@@ -77,10 +85,8 @@ InputRange range_of(const std::string& line, const std::string& where) {
     require_end(words_of(text.substr(close + 1)), 0, where);
     return range;
   }
-  if (words[1] == "unit" || words[1] == "finite" || words[1] == "any") {
-    range.kind = words[1] == "unit"     ? InputRange::Kind::unit
-                 : words[1] == "finite" ? InputRange::Kind::finite
-                                        : InputRange::Kind::any;
+  if (const std::optional<InputRange::Kind> kind = kind_of(words[1])) {
+    range.kind = *kind;
     require_end(words, 2, where);
     return range;
   }

@@ -142,16 +142,22 @@ TEST_CASE("what stands behind a range, or is nearly one, is refused at its line"
     return "";
   };
   CHECK(refusal("// @input x 0..1 5 3..4").find("s.frag:2: \"5\" is too much") == 0);
-  for (const std::string range : {"0..1 5", "{1, 2} 3", "any 0..1"})
+  for (const std::string range : {"0..1 5", "{1, 2} 3", "any 0..1", "unit unit", "any any any", "0..1 finite",
+                                  "{1, 2} unit", "0..1 0..1 any component"})
     CHECK_MESSAGE(refusal("// @input x " + range).find("is too much behind the range") != std::string::npos, range);
-  for (const std::string range : {"0...1", "0..1..2", "--1..2", "0x..1", "0x-1..2", "-0x..1"})
+  for (const std::string range :
+       {"0...1", "0..1..2", "--1..2", "0x..1", "0x-1..2", "-0x..1", "++1..2", "+-1..2", "-+1..2", "+..1"})
     CHECK_MESSAGE(refusal("// @input x " + range) != "", range);
   CHECK(refusal("// @inputs x 1..2").find("s.frag:2: unknown comment @inputs") == 0);
   CHECK(refusal("// @inputs are what follows") == "");
-  for (const std::string range : {"0..1 every component", "unit vectors of length 1", "0..1 // every component",
-                                  "{1, 2} // two", "unit//long", "-0x1.8p-3..0x1p3"})
+  for (const std::string range :
+       {"0..1 every component", "unit vectors of length 1", "0..1 // every component", "{1, 2} // two", "unit//long",
+        "-0x1.8p-3..0x1p3", "finite values", "unit // any direction", "0..1 units", "0..1 of any kind"})
     CHECK_MESSAGE(refusal("// @input x " + range) == "", range);
   CHECK(declared_ranges(shader("// @input x -0x1.8p-3..0x1p3")).at(0).intervals.at(0) == std::pair(-0.1875, 8.0));
+  CHECK(declared_ranges(shader("// @input x -1..+1 +0x1p3..+1e+9")).at(0).intervals ==
+        std::vector{std::pair(-1.0, 1.0), std::pair(8.0, 1e9)});
+  CHECK(declared_ranges(shader("// @input x {-1, +2}")).at(0).values == std::vector{-1.0, 2.0});
 }
 
 TEST_CASE("a range within a block comment is none") {

@@ -108,11 +108,14 @@ int significant_digits(const std::string& literal) {
   return digits;
 }
 
+// Of a vector of floats, or a column of a matrix: integers need not be `precise`.
 bool has_variable_index(const Expression& target) {
   const Expression* e = &target;
   for (; e->kind == Kind::member || e->kind == Kind::index; e = e->operands[0].get()) {
     if (e->operands.empty()) return false;
-    if (e->kind == Kind::index && e->operands[0]->type.is_vector() && !e->operands[1]->constant) return true;
+    const GlslType& indexed = e->operands[0]->type;
+    if (e->kind == Kind::index && indexed.is_vector() && indexed.is_floating() && !e->operands[1]->constant)
+      return true;
   }
   return false;
 }

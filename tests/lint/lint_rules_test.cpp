@@ -170,9 +170,11 @@ const std::vector<Samples>& samples() {
         "bool c = any(lessThan(a, b));"}},
       {"vector-store",
        {"vec3 v = a; v[k] = 1.0;", "mat3 n = m; n[0][k] = 1.0;", "vec3 v = a; fill(v[k]);",
-        "ivec2 i = ivec2(1); i[k]++;", "vec3 v[2]; v[k][k] = 1.0;"},
+        "vec3 v[2]; v[k][k] = 1.0;"},
        {"vec3 v = a; v[1] = 1.0;", "float x[3]; x[k] = 1.0;", "float x = a[k];", "vec3 v = a; v[FOUR - 2] = 1.0;",
-        "vec3 v[2]; v[k].x = 1.0;", "mat3 n = m; n[k] = a;"}},
+        "vec3 v[2]; v[k].x = 1.0;", "mat3 n = m; n[k] = a;", "ivec2 i = ivec2(1); i[k]++;",
+        "uvec2 i = uvec2(u); i[u & 1u] = 7u;", "bvec2 c = bvec2(true); c[k] = false;",
+        "uvec2 i = uvec2(u); uint c; c = usubBorrow(u, 7u, i[k]);"}},
       {"double", {"double x;", "dvec2 v;", "color.x = float(double(k));"}, {"float x;", "int doubled = k;"}},
       {"division",
        {"int i = 4 / k;", "uint i = 3u / u;", "int i = k; i /= k;", "int i = k / -1;", "uint i = 7u % u;",
@@ -377,7 +379,9 @@ TEST_CASE("an overload is found as GLSL's implicit conversions find it") {
   // an out argument is converted the other way round: an int does not take a float
   CHECK(rules("void g(out int n) { n = 1; } void g(float n) {}", "g(v[k]);") == "");
   CHECK(rules("void g(out int n) { n = 1; } void g(vec2 n) {}", "g(v[k]);") == "vector-store");
-  CHECK(rules("void g(vec2 x, out int n) { n = 1; } void g(float x, inout int n) {}", "g(k, w[k]);") == "vector-store");
+  CHECK(rules("void g(vec2 x, out float n) { n = 1.0; } void g(float x, inout float n) {}", "g(k, v[k]);") ==
+        "vector-store");
+  CHECK(rules("void g(float x, inout int n) {}", "g(k, w[k]);") == "");
   // arrays that differ in size are one type to the lint: where either overload writes, the call may
   CHECK(rules("void g(float x[2], out float n) { n = 1.0; } void g(float x[3], float n) {}",
               "g(float[3](1.0, 1.0, 1.0), v[k]);") == "vector-store");

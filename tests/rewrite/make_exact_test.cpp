@@ -304,6 +304,7 @@ TEST_CASE("what cannot be made exact is named where the author wrote it") {
   CHECK(left_of("color = texture(map, a.xy);").find("sample.frag:10: texture:") == 0);
   CHECK(left_of("uint p = packHalf2x16(a.xy); color.x = float(p);").find("sample.frag:10: packHalf2x16:") == 0);
   CHECK(left_of("vec3 v = a; fill(v[k]); color.xyz = v;").find("sample.frag:10: []:") == 0);
+  CHECK(left_of("uvec2 v = uvec2(k); v[k & 1] = 7u; color.x = float(v.x);") == "");  // integers are exact
   CHECK(left_of("color.x = acosh(a.x);").find("sample.frag:10: acosh:") == 0);
   CHECK(left_of("color.x = float(k % 3);").find("sample.frag:10: %:") == 0);
   CHECK(left_of("color.x = a.x + 1e-42;").find("sample.frag:10: 1e-42:") == 0);

@@ -244,9 +244,9 @@ class Check {
       add_frag_coord(example.values, rows);
     }
     const Differs test = [&](const ValueTable& table) { return differs(source, table, differing.target); };
-    if (!test(example.values)[0]) {
-      example.first_line.note = "the difference is not there when this input is run alone";
-      result_.counterexample = std::move(example);
+    if (!test(example.values)[0]) {  // the rows beside it have a part in it: no one input shows it
+      result_.counterexample.reset();
+      result_.message = only_in_company(example);
       return;
     }
     example.values = shrink(example.values, ranges_, test);
@@ -257,6 +257,13 @@ class Check {
     }
     result_.counterexample = std::move(example);
     look_inside(source, differing.target, *result_.counterexample);
+  }
+
+  std::string only_in_company(const Counterexample& example) const {
+    const RowDifference& d = example.difference;
+    return as_the_author_names(exact_, d.output) + ": " + backend_name(example.a) + " " + value_text(d.scalar, d.a) +
+           ", " + backend_name(example.b) + " " + value_text(d.scalar, d.b) + " in row " + std::to_string(d.row + 1) +
+           " of " + std::to_string(table_.rows) + "; the difference is not there when that row is run alone";
   }
 
   void look_inside(const ShaderSource& source, const EvaluationTarget& other, Counterexample& example) {

@@ -55,7 +55,7 @@ enum class Verdict {
 struct CheckedShader {
   std::string path;
   Verdict verdict = Verdict::refused;
-  std::string message;             // refused, not_run: why
+  std::string message;             // refused, not_run: why; differs: where no input shows it when run alone
   std::vector<std::string> files;  // that it is made of
   std::string hash;                // of the source that is run; empty: it could not be read
   std::vector<LintFinding>

@@ -9,6 +9,7 @@
 #include "cpu_shaders/source/preprocess.h"
 #include "raster/gl/constant_integer.h"
 #include "raster/gl/declaration.h"
+#include "raster/gl/extended_products.h"
 #include "raster/gl/new_keywords.h"
 
 namespace twinshade::gl {
@@ -75,6 +76,7 @@ class Rewriter {
     if (!has_main)
       throw UserError((source_.files.empty() ? source_.name : source_.files[0]) + ": the shader has no main()");
     rename_words();
+    result_.extended_products = redirect_extended_products(tokens_);
     result_.text = join(text_);
     return std::move(result_);
   }

@@ -45,7 +45,8 @@ struct FragmentShader {
   std::vector<std::string>
       initializers;  // functions that give globals their values: to be called before the user's main, in order
   bool discards = false, writes_depth = false, uses_fragment_position = false, has_storage = false;
-  std::string derivative;  // position and name of the first derivative function that it calls; empty: none
+  bool extended_products = false;  // it calls functions of extended_products.h
+  std::string derivative;          // position and name of the first derivative function that it calls; empty: none
 };
 
 // Names that the rewritten text uses and the generated text defines. The prefix is ours: a shader that uses it is

@@ -5,7 +5,9 @@
 #include "cpu_shaders/rewrite/make_exact.h"
 #include "cpu_shaders/source/output_locations.h"
 #include "cpu_shaders/source/preprocess.h"
+#include "raster/gl/extended_products.h"
 #include "raster/gl/new_keywords.h"
+#include "raster/row_grid.h"
 
 namespace twinshade::gl {
 namespace {
@@ -131,7 +133,7 @@ std::vector<std::string> ShaderGenerator::component_names() const {
 
 Geometry ShaderGenerator::geometry() const {
   if (supply_ == Supply::texels) return Geometry::full_screen;
-  if (supply_ == Supply::rows) return Geometry::rows;
+  if (draws_rows()) return Geometry::rows;
   if (supply_ == Supply::exact || leaves_.size() > kMostVertexAttributes) return Geometry::pulled;
   return Geometry::attributes;
 }
@@ -155,6 +157,8 @@ bool ShaderGenerator::needs_triangle() const {
   return supply_ == Supply::exact || (supply_ == Supply::texels && shader_.uses_fragment_position);
 }
 
+bool ShaderGenerator::draws_rows() const { return supply_ == Supply::rows || supply_ == Supply::row_quads; }
+
 // Which pixel of the CPU's frame to shade. softpipe takes the element that a store with a variable index goes to from
 // the first pixel of a quad, wherever that one is: a pixel that left the shader early would send the others' loops
 // astray. So pixels that the CPU did not cover shade a covered pixel of their quad, if there is one, and are discarded
@@ -177,18 +181,33 @@ std::string ShaderGenerator::covered_pixel() const {
          "  if (twinshade_id == 0xffffffffu) discard;\n";
 }
 
+// Where a row's inputs are, and its place on the grid. softpipe takes the element that a store goes to from the first
+// pixel of a quad, whichever row that is: there all four pixels are one row.
+std::string ShaderGenerator::row_pixel() const {
+  const std::string built_ins =
+      "  twinshade_FrontFacing = true;\n"
+      "  twinshade_PrimitiveID = 0;\n";
+  if (supply_ == Supply::rows)
+    return "  ivec2 twinshade_pixel = ivec2(gl_FragCoord.xy);\n"
+           "  twinshade_FragCoord = vec4(gl_FragCoord.xy, 0.5, 1.0);\n" +
+           built_ins;
+  const std::string width = number(kGridWidth);
+  return "  ivec2 twinshade_quad = ivec2(gl_FragCoord.xy) / 2, twinshade_pixel = twinshade_quad * 2;\n"
+         "  ivec2 twinshade_place = ivec2(twinshade_quad.x % " +
+         width + ", twinshade_pixel.y + twinshade_quad.x / " + width +
+         ");\n"
+         "  twinshade_FragCoord = vec4(vec2(twinshade_place) + 0.5, 0.5, 1.0);\n" +
+         built_ins;
+}
+
 // Statements that give every input its value, and the built-ins that depend on it.
 std::string ShaderGenerator::fill() const {
   if (supply_ == Supply::varyings) return "";
   std::string text;
   if (supply_ == Supply::texels)
     text += covered_pixel() + "  twinshade_PrimitiveID = int(twinshade_id);\n";
-  else if (supply_ == Supply::rows)
-    text +=
-        "  ivec2 twinshade_pixel = ivec2(gl_FragCoord.xy);\n"
-        "  twinshade_FragCoord = vec4(gl_FragCoord.xy, 0.5, 1.0);\n"
-        "  twinshade_FrontFacing = true;\n"
-        "  twinshade_PrimitiveID = 0;\n";
+  else if (draws_rows())
+    text += row_pixel();
   else
     text += "  twinshade_PrimitiveID = gl_PrimitiveID;\n";
   if (needs_triangle()) {
@@ -217,7 +236,7 @@ std::string ShaderGenerator::fill() const {
                                             "], " + number(leaf.components) + ", " + number(c) + ")");
         };
         std::string value;
-        if (supply_ == Supply::texels || supply_ == Supply::rows)
+        if (supply_ == Supply::texels || draws_rows())
           value = from_bits(leaf.scalar,
                             "texelFetch(twinshade_cpu_attributes, ivec3(twinshade_pixel, " + number(plane) + "), 0).x");
         else if (flat)
@@ -245,10 +264,10 @@ std::string ShaderGenerator::fragment(const std::string& outputs, const std::str
             "uvec4 twinshade_position(uint vertex) { return twinshade_position_list[vertex]; }\n";
   if (needs_triangle()) text += "uniform vec2 twinshade_ndc_scale;\n" + attribute_functions(written_out_);
   if (supply_ == Supply::texels) text += "uniform usampler2D twinshade_cpu_ids;\nbool twinshade_covered;\n";
-  if (supply_ == Supply::texels || supply_ == Supply::rows)
-    text += "uniform usampler2DArray twinshade_cpu_attributes;\n";
+  if (supply_ == Supply::texels || draws_rows()) text += "uniform usampler2DArray twinshade_cpu_attributes;\n";
   if (supply_ != Supply::varyings)
     text += "vec4 twinshade_FragCoord;\nbool twinshade_FrontFacing;\nint twinshade_PrimitiveID;\n";
+  if (shader_.extended_products) text += extended_product_functions();
   text += "#line 1 0\n" + shader_.text;
   text += "\n#line 1 " + number(kGeneratedFile) + "\n" + outputs + "void main() {\n" + fill() + before_user;
   for (const std::string& function : shader_.initializers) text += "  " + function + "();\n";
@@ -284,7 +303,7 @@ std::string ShaderGenerator::color_expression() const {
 }
 
 std::string ShaderGenerator::vertex() const {
-  if (supply_ == Supply::texels || supply_ == Supply::rows)
+  if (supply_ == Supply::texels || draws_rows())
     return "#version 330 core\n"
            "void main() {\n"
            "  gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);\n"

@@ -10,10 +10,11 @@ namespace twinshade::gl {
 
 // Where the fragment shader's inputs come from.
 enum class Supply {
-  exact,     // vertex data in buffer textures, by shaders/exact/attributes.glsl
-  varyings,  // GL's own interpolation
-  texels,    // what the CPU captured, by texelFetch (softpipe)
-  rows,      // rows of a table, one a fragment, by texelFetch: see row_grid.h
+  exact,      // vertex data in buffer textures, by shaders/exact/attributes.glsl
+  varyings,   // GL's own interpolation
+  texels,     // what the CPU captured, by texelFetch (softpipe)
+  rows,       // rows of a table, one a fragment, by texelFetch: see row_grid.h
+  row_quads,  // the same, one a 2 x 2 quad; two lines of the grid stand side by side, so that the frame is no higher
 };
 
 // File number that driver logs show for generated lines, so that they are not taken for the author's.
@@ -56,10 +57,12 @@ class ShaderGenerator {
   std::string head() const;
   std::string fragment(const std::string& outputs, const std::string& before_user, const std::string& after_user) const;
   std::string covered_pixel() const;
+  std::string row_pixel() const;
   std::string fill() const;
   std::string color_expression() const;
   std::string vertex() const;
   bool needs_triangle() const;
+  bool draws_rows() const;
   struct Component {
     std::string name, bits;  // a GLSL expression of type uint
   };

@@ -27,10 +27,11 @@ class GlRowRenderer final : public RowRenderer {
                          " is not evaluated on softpipe, which takes one derivative for a whole quad");
     }
     const std::vector<Input> inputs = supplied_inputs(table.inputs, source, shader.inputs);
-    const ShaderGenerator generator(source, shader, inputs, Supply::rows, backend_ == GlBackend::softpipe ? 330 : 450);
+    const ShaderGenerator generator(source, shader, inputs, quads_ ? Supply::row_quads : Supply::rows,
+                                    backend_ == GlBackend::softpipe ? 330 : 450);
 
     Bundle grid = table.resources;  // no vertices: nothing of them need be sent
-    grid.width = kGridWidth, grid.height = grid_height(table.rows);
+    grid.width = width(), grid.height = grid_height(table.rows);
     DrawRequest request = request_for(grid, source, generator, time_limit_seconds);
     const std::vector<std::string> names = generator.result_names();
     request.components = std::uint32_t(generator.component_names().size());
@@ -60,9 +61,9 @@ class GlRowRenderer final : public RowRenderer {
                                           [&](const Attribute& a) { return a.name == leaf.name; });
       TWINSHADE_CHECK_EQ(attribute->values.size(), table.rows * leaf.components);
       for (std::uint32_t c = 0; c < leaf.components; ++c, plane += pixels)
-        for (std::size_t p = 0; p < pixels; ++p) {
-          const std::size_t row = std::min(p, table.rows - 1);
-          std::memcpy(plane + pixel_index(p), &attribute->values[row * leaf.components + c], 4);
+        for (std::size_t place = 0; place < pixels / (quads_ ? 4 : 1); ++place) {
+          const std::size_t row = std::min(place, table.rows - 1);
+          std::memcpy(plane + pixel_index(place), &attribute->values[row * leaf.components + c], 4);
         }
     }
   }
@@ -84,12 +85,17 @@ class GlRowRenderer final : public RowRenderer {
     return results;
   }
 
-  static std::size_t pixel_index(std::size_t row) {
+  std::uint32_t width() const { return quads_ ? 4 * kGridWidth : kGridWidth; }
+
+  // Of a row of quads the first pixel: see Supply::row_quads.
+  std::size_t pixel_index(std::size_t row) const {
     const auto [x, y] = grid_pixel(row);
-    return std::size_t{y} * kGridWidth + x;
+    if (!quads_) return std::size_t{y} * kGridWidth + x;
+    return std::size_t{y / 2 * 2} * width() + (y % 2 * kGridWidth + x) * 2;
   }
 
   const GlBackend backend_;
+  const bool quads_ = backend_ == GlBackend::softpipe;  // a row is a quad, not a pixel
   GlSession session_;
   bool refused_ = false;
 };

@@ -141,6 +141,57 @@ TEST_CASE("discarded rows, depth, place, facing and derivatives are the same eve
   CHECK(value_at(*find_values(rows.outputs, "place"), 129, 1) == 2.5);
 }
 
+TEST_CASE("each row stores where its own index says") {
+  // softpipe takes a store's index from the first pixel of a quad. Rows enough for several lines of the grid.
+  const std::string text =
+      "in float x; flat in int i; out vec4 r; out vec2 place;\n"
+      "void main() {\n"
+      "  float list[3]; mat2 m = mat2(0.0); vec4 v = vec4(0.0); vec2 pairs[2];\n"
+      "  list[0] = list[1] = list[2] = 0.0;\n"
+      "  pairs[0] = pairs[1] = vec2(0.0);\n"
+      "  list[i % 3] = x; m[i & 1][i >> 1 & 1] = x; v[i & 3] = x; pairs[i & 1] = vec2(x, -x);\n"
+      "  if (i == 6) discard;\n"
+      "  r = vec4(list[0] + 2.0 * list[1], m[0].x + 2.0 * m[1].y, v.x + 2.0 * v.z, pairs[1].y);\n"
+      "  place = gl_FragCoord.xy;\n"
+      "}\n";
+  ValueTable table{523, {}, {}, {}, {}};
+  std::vector<float> x;
+  std::vector<std::int64_t> i;
+  for (int row = 0; row < 523; ++row) {
+    x.push_back(float(row + 1));
+    i.push_back(row * 5 % 7);
+  }
+  table.inputs = {floats("x", "float", x), ints("i", "int", i)};
+  const EvaluatedRows rows = same_everywhere(fragment(text), table);
+  CHECK(value_at(*find_values(rows.outputs, "r"), 0, 0) == 1);
+  CHECK(value_at(*find_values(rows.outputs, "r"), 3, 3) == -4);
+  CHECK(rows.kept[4] == 0);
+}
+
+TEST_CASE("products of 64 bits are right whatever the compiler knows of their factors") {
+  const std::string text =
+      "flat in uint u; flat in int i; out uvec4 a; out uvec4 b; out uvec2 c;\n"
+      "void multiply(uint x, out uvec2 product) { umulExtended(x, 1u, product.x, product.y); }\n"
+      "void main() {\n"
+      "  uint h, l; uvec2 h2, l2; int ih, il; uvec2 product;\n"
+      "  umulExtended(u, 0xffffffffu, h, l); a.xy = uvec2(h, l);\n"
+      "  multiply(u, product); a.zw = product;\n"
+      "  if (u == 7u) a.zw = uvec2(3u); else umulExtended(7u, ~1u, a.z, a.w);\n"
+      "  imulExtended(i, -1, ih, il); b.xy = uvec2(ih, il);\n"
+      "  imulExtended(i, 1, ih, il); b.zw = uvec2(ih, il);\n"
+      "  umulExtended(uvec2(u), uvec2(~0u, 1u), h2, l2); c = h2 * 3u + l2;\n"
+      "}\n";
+  ValueTable table{4, {}, {}, {}, {}};
+  table.inputs = {ints("u", "uint", {0, 7, 4294967295, 2147483648}),
+                  ints("i", "int", {0, -1, 2147483647, -2147483648})};
+  const EvaluatedRows rows = same_everywhere(fragment(text), table);
+  const std::vector<std::uint32_t>& a = find_values(rows.outputs, "a")->bits;
+  CHECK(std::vector(a.begin() + 4, a.begin() + 8) == std::vector{6u, 4294967289u, 3u, 3u});
+  CHECK(std::vector(a.begin() + 8, a.begin() + 12) == std::vector{4294967294u, 1u, 6u, 4294967282u});
+  const std::vector<std::uint32_t>& b = find_values(rows.outputs, "b")->bits;
+  CHECK(std::vector(b.begin() + 12, b.end()) == std::vector{0u, 2147483648u, 4294967295u, 2147483648u});
+}
+
 TEST_CASE("softpipe refuses derivatives, which are coarse there, and evaluates the next shader") {
   const auto targets = test::every_target();
   const auto softpipe = std::find_if(targets.begin(), targets.end(),

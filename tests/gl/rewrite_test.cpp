@@ -214,6 +214,22 @@ TEST_CASE("names that later versions made keywords are renamed in older shaders"
                  "precise float a"));
 }
 
+TEST_CASE("products of 64 bits go through functions that hide their factors from Mesa") {
+  const std::string call =
+      "void main() { uint h, l; if (true) umulExtended(3u, 1u, h, l); else umulExtended(1u, h, h, l); }\n";
+  const FragmentShader result = globals(call);
+  CHECK(result.extended_products);
+  CHECK(contains(tokens_of(result.text), "if ( true ) twinshade_umulExtended ( 3u , 1u , h , l ) ;"));
+  CHECK(contains(tokens_of(result.text), "else twinshade_umulExtended ( 1u , h , h , l ) ;"));
+  CHECK(varyings(call).extended_products);
+  CHECK(!globals(kMain).extended_products);
+  // the author's own function
+  const FragmentShader own =
+      globals("void umulExtended(float a, float b) {}\nvoid main() { umulExtended(1.0, 2.0); }\n");
+  CHECK(!own.extended_products);
+  CHECK(contains(tokens_of(own.text), "{ umulExtended ( 1.0 , 2.0 ) ; }"));
+}
+
 TEST_CASE("what the rewritten shader does is known") {
   const FragmentShader result = globals(
       "in vec2 a;\nin vec2 unused;\nout vec4 c;\nvoid main() {\n if (a.x > 0.0) discard;\n"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "raster/gl/extended_products.h"
 #include "raster/gl/generated_shaders.h"
 #include "raster/gl/worker/failure.h"
 #include "raster/gl/worker/uniform_type.h"
@@ -202,7 +203,7 @@ bool DrawData::bind_own_uniform(const ActiveUniform& uniform, const DrawRequest&
     std::vector<GLint> bases;
     for (const InputLeaf& leaf : request.leaves) bases.push_back(GLint(attribute(leaf.name).first));
     gl_.Uniform1iv(uniform.location, std::min(uniform.size, GLint(bases.size())), bases.data());
-  } else {
+  } else if (uniform.name != kUnknownZero) {  // which is 0 from the start
     return false;
   }
   return true;

@@ -13,12 +13,14 @@
 #include <new>
 #include <set>
 #include <sstream>
+#include <string_view>
 
 #include "base/error.h"
 #include "base/file.h"
 #include "base/portable_math.h"
 #include "scenes/material_image.h"
 #include "scenes/mtl_textures.h"
+#include "scenes/obj_lines.h"
 
 namespace twinshade {
 namespace {
@@ -98,7 +100,7 @@ class Reader {
 
   Model read() {
     model_.files.push_back(path_);
-    std::string text = with_libraries(without_byte_order_mark(read_file(path_)));
+    std::string text = with_libraries(with_line_feeds(without_byte_order_mark(read_file(path_))));
     Assimp::Importer importer;
     importer.SetIOHandler(new Files(path_, std::move(text), libraries_));  // which it deletes
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
@@ -117,21 +119,17 @@ class Reader {
   // The model's text with a line for each material library that is there: assimp takes all names of a line for one,
   // and puts another file in the place of one that is missing.
   std::string with_libraries(const std::string& content) {
-    std::istringstream lines(with_line_feeds(content));
+    constexpr std::string_view kLibrary = "mtllib";
     std::string text;
-    for (std::string line, more; std::getline(lines, line); text += '\n') {
-      const std::size_t word = line.find_first_not_of(" \t");
-      if (word == std::string::npos || line.compare(word, 6, "mtllib") != 0 ||
-          line.find_first_of(" \t\r", word) != word + 6) {
-        text += line;
+    text.reserve(content.size());
+    for (ObjLines lines(content); lines.next(); text += '\n') {
+      const std::string_view line = lines.statement();
+      const std::string_view rest = line.substr(std::min(kLibrary.size(), line.size()));
+      if (!line.starts_with(kLibrary) || (!rest.empty() && rest.find_first_of(" \t") != 0)) {
+        add_statement(text, line, path_, lines.number());
         continue;
       }
-      while (trimmed(line).ends_with('\\') && std::getline(lines, more)) {  // goes on in the next line
-        line.erase(line.rfind('\\'));
-        line += ' ' + more;
-      }
-      for (const std::string& name :
-           library_names(trimmed(line.substr(word + 6, line.find(" #", word) - (word + 6))))) {
+      for (const std::string& name : library_names(trimmed(std::string(rest.substr(0, rest.find(" #")))))) {
         const std::string file = texture_path(path_, name);
         model_.files.push_back(file);
         std::error_code code;

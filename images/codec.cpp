@@ -7,10 +7,16 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
 #include <exception>
+#include <fstream>
+#include <iterator>
 #include <memory>
+#include <numeric>
+#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/sanitizers.h"
@@ -60,6 +66,82 @@ class StderrOfLibraries {
   int exceptions_ = std::uncaught_exceptions();
 };
 
+using Names = std::vector<std::string>;
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+  return text;
+}
+
+// The channel of that name, in either case; -1: there is none.
+int channel_named(const Names& names, const std::string& wanted) {
+  for (std::size_t c = 0; c < names.size(); ++c)
+    if (lower_case(names[c]) == lower_case(wanted)) return int(c);
+  return -1;
+}
+
+// Red, green, blue and, where it is there, alpha of a layer, whose name ends in a point; of "", the picture itself.
+// Empty where one of the three is missing.
+std::vector<int> colours_of(const Names& names, const std::string& layer) {
+  std::vector<int> channels;
+  for (const char* channel : {"R", "G", "B"}) channels.push_back(channel_named(names, layer + channel));
+  if (std::find(channels.begin(), channels.end(), -1) != channels.end()) return {};
+  if (const int alpha = channel_named(names, layer + "A"); alpha >= 0) channels.push_back(alpha);
+  return channels;
+}
+
+// Layers with red, green and blue, in the order of their channels.
+Names layers_of_colour(const Names& names) {
+  Names layers;
+  for (const std::string& name : names) {
+    const std::string layer = name.substr(0, name.rfind('.') + 1);
+    if (!layer.empty() && std::find(layers.begin(), layers.end(), layer) == layers.end() &&
+        !colours_of(names, layer).empty())
+      layers.push_back(layer);
+  }
+  return layers;
+}
+
+// Whether a channel is no light: depth, or what a pixel covers. Layers say so by their names, too.
+bool is_depth_or_alpha(const std::string& name) {
+  constexpr const char* kWords[] = {"z", "zback", "depth", "a", "alpha"};
+  std::istringstream parts(lower_case(name));
+  for (std::string part; std::getline(parts, part, '.');)
+    if (std::find(std::begin(kWords), std::end(kWords), part) != std::end(kWords)) return true;
+  return false;
+}
+
+std::string listed(const Names& names) {
+  constexpr std::size_t kMost = 12;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i) text += (i > 0 ? ", " : "") + names[i];
+  return names.size() > kMost ? text + " and " + std::to_string(names.size() - kMost) + " more" : text;
+}
+
+// The channels that make the picture, by their names: R, G, B and A; else, of an EXR file, those of the only layer that
+// has them, or one of grey, and A. Other formats do not name their channels: the first ones in their order.
+std::vector<int> channels_read(const Names& names, bool is_exr) {
+  if (const std::vector<int> colours = colours_of(names, ""); !colours.empty()) return colours;
+  if (!is_exr) {
+    std::vector<int> first(std::min<std::size_t>(names.size(), 4));
+    std::iota(first.begin(), first.end(), 0);
+    return first;
+  }
+  Names layers = layers_of_colour(names);
+  if (layers.size() == 1) return colours_of(names, layers.front());
+  if (!layers.empty()) {
+    for (std::string& layer : layers) layer.pop_back();
+    refuse("it has R, G and B in the layers " + listed(layers) + "; save the one that is meant alone");
+  }
+  const int alpha = channel_named(names, "A");
+  int grey = channel_named(names, "Y");
+  if (channel_named(names, "RY") >= 0 || channel_named(names, "BY") >= 0) grey = -1;  // a part of a colour
+  if (grey < 0 && names.size() == (alpha >= 0 ? 2u : 1u)) grey = alpha == 0 ? int(names.size()) - 1 : 0;
+  if (grey < 0 || is_depth_or_alpha(names[std::size_t(grey)]))
+    refuse("its channels are " + listed(names) + "; save it with R, G and B, or one channel of grey");
+  return alpha >= 0 ? std::vector<int>{grey, alpha} : std::vector<int>{grey};
+}
+
 DecodedImage read_all(OIIO::ImageInput& input) {
   const OIIO::ImageSpec spec = input.spec();
   if (spec.width < 1 || spec.height < 1 || spec.width > kLargestSide || spec.height > kLargestSide || spec.depth > 1 ||
@@ -71,26 +153,19 @@ DecodedImage read_all(OIIO::ImageInput& input) {
     refuse("its data window is not its display window; crop or fill it first");
   if (spec.get_int_attribute("Orientation", 1) != 1) refuse("it is stored turned or mirrored; save it upright");
 
-  // R, G, B, A by name, else the first channels in their order.
-  std::vector<int> order;
-  for (const char* wanted : {"R", "G", "B", "A"})
-    for (int c = 0; c < spec.nchannels; ++c)
-      if (spec.channel_name(c) == wanted) order.push_back(c);
-  const bool named = order.size() >= 3;
+  const std::vector<int> order = channels_read(spec.channelnames, std::string_view(input.format_name()) == "openexr");
   DecodedImage image;
   image.width = std::uint32_t(spec.width);
   image.height = std::uint32_t(spec.height);
-  image.channels = named ? std::uint32_t(order.size()) : std::uint32_t(std::min(spec.nchannels, 4));
+  image.channels = std::uint32_t(order.size());
   image.bits = spec.format == OIIO::TypeDesc::UINT8 ? 8 : spec.format == OIIO::TypeDesc::UINT16 ? 16 : 32;
   const std::size_t pixels = std::size_t(image.width) * image.height;
   image.texels.resize(pixels * image.channels);
   const auto pick = [&](const auto* raw, double largest) {
     for (std::size_t p = 0; p < pixels; ++p)
-      for (std::uint32_t c = 0; c < image.channels; ++c) {
-        const int from = named ? order[c] : int(c);
+      for (std::uint32_t c = 0; c < image.channels; ++c)
         image.texels[p * image.channels + c] =
-            float(double(raw[p * std::size_t(spec.nchannels) + std::size_t(from)]) / largest);
-      }
+            float(double(raw[p * std::size_t(spec.nchannels) + std::size_t(order[c])]) / largest);
   };
   const auto read = [&](auto type, OIIO::TypeDesc format, double largest) {
     std::vector<decltype(type)> raw(pixels * std::size_t(spec.nchannels));
@@ -142,10 +217,18 @@ void write_file(const std::string& path, const ImageToWrite& image) {
   // The library would put the time of writing into EXR files.
   spec.attribute("DateTime", "1970:01:01 00:00:00");
   for (const auto& [key, value] : image.notes) spec.attribute("twinshade:" + key, value);
+  // Into memory: writing to a file itself, the library does not see all that fails, and a PNG cut short would pass.
+  OIIO::Filesystem::IOVecOutput memory;
+  if (!out->supports("ioproxy") || !out->set_ioproxy(&memory)) refuse("this format cannot be made in memory");
   if (!out->open(path, spec)) refuse(out->geterror());
   if (!out->write_image(type, image.upper_row, OIIO::AutoStride, OIIO::stride_t(image.row_stride)))
     refuse(out->geterror());
   if (!out->close()) refuse(out->geterror());
+  std::ofstream file(path, std::ios::binary);
+  const auto& bytes = memory.buffer();
+  if (file) file.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+  file.close();
+  if (!file) refuse(std::strerror(errno));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace twinshade {
 
 struct DecodedImage {
   std::uint32_t width = 0, height = 0;
-  std::uint32_t channels = 0;  // 1 to 4; R, G, B, A by name where the file names them
+  std::uint32_t channels = 0;  // 1 to 4: R, G, B, A or grey, A, by name where the file names them; A may be missing
   std::uint32_t bits = 32;     // of an integer sample in the file (8 or 16); 32: floating point
   std::vector<float> texels;   // row 0 is the upper one; integers divided by their largest value
 };

@@ -1,9 +1,12 @@
 #include "images/image_file.h"
 
 #include <doctest/doctest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <random>
 
 #include "base/file.h"
@@ -140,6 +143,99 @@ TEST_CASE("PNGs whose chunks are whole but damaged within are refused, and libpn
       if (!kShadowMemory) CHECK(noise.empty());  // sanitizers keep their stderr, and so do libraries there
     }
   }
+}
+
+namespace {
+
+using Names = std::vector<std::string>;
+
+// Of an EXR file with these channels, whose only pixel has 1, 2 and so on in them.
+std::string with_channels(const TemporaryFolder& folder, const Names& names) {
+  std::vector<float> values;
+  for (std::size_t c = 0; c < names.size(); ++c) values.push_back(float(c + 1));
+  write_image(folder.name("c.exr"), 1, 1, int(names.size()), values, nullptr, names);
+  return folder.name("c.exr");
+}
+
+}  // namespace
+
+TEST_CASE("channels are read by name: R, G and B, those of the only layer, or one of grey") {
+  const TemporaryFolder folder;
+  const std::vector<std::pair<Names, std::vector<float>>> read{
+      {{"R", "G", "B"}, {1, 2, 3}},
+      {{"B", "G", "R"}, {3, 2, 1}},
+      {{"A", "B", "G", "R", "Z"}, {4, 3, 2, 1}},
+      {{"r", "g", "b"}, {1, 2, 3}},
+      {{"R", "G", "B", "diffuse.R", "diffuse.G", "diffuse.B"}, {1, 2, 3}},
+      {{"Z", "a.b.B", "a.b.G", "a.b.R"}, {4, 3, 2}},
+      {{"light.R", "light.G", "light.B", "light.A", "depth.Z"}, {1, 2, 3, 4}},
+      {{"mask.R", "mask.G", "light.R", "light.G", "light.B"}, {3, 4, 5}},
+      {{"Y"}, {1}},
+      {{"Y", "Z"}, {1}},
+      {{"Y", "A"}, {1, 2}},
+      {{"luminance"}, {1}},
+      {{"R"}, {1}}};
+  for (const auto& [names, texels] : read) {
+    const std::string first = names.front();
+    CAPTURE(first);
+    const DecodedImage image = decode_image_file(with_channels(folder, names));
+    CHECK(image.channels == texels.size());
+    CHECK(image.texels == texels);
+  }
+}
+
+TEST_CASE("formats that do not name their channels are read in their order: grey with alpha") {
+  const TemporaryFolder folder;
+  for (const std::string name : {"a.png", "a.tga", "a.tif"}) {
+    CAPTURE(name);
+    write_image(folder.name(name), 2, 1, 2, std::vector<std::uint8_t>{51, 255, 102, 255});
+    const DecodedImage image = decode_image_file(folder.name(name));
+    CHECK(image.channels == 2);
+    CHECK(image.texels == std::vector<float>{0.2f, 1, 0.4f, 1});
+  }
+}
+
+TEST_CASE("channels that make no picture, or several, are refused by their names") {
+  const TemporaryFolder folder;
+  const std::string needs = "; save it with R, G and B, or one channel of grey";
+  for (const Names& names :
+       {Names{"R", "G"}, {"B", "G"}, {"Z"}, {"A"}, {"view.Depth.V"}, {"R", "A", "Z"}, {"U", "V"}}) {
+    const std::string message = user_error([&] { decode_image_file(with_channels(folder, names)); });
+    INFO(message);
+    CHECK(message.find("c.exr: cannot be read as an image: its channels are ") != std::string::npos);
+    for (const std::string& name : names) CHECK(message.find(name) != std::string::npos);
+    CHECK(message.ends_with(needs));
+  }
+  Names many;
+  for (int i = 10; i < 30; ++i) many.push_back("c" + std::to_string(i));
+  CHECK(user_error([&] { decode_image_file(with_channels(folder, many)); }).find("c21 and 8 more; save it with") !=
+        std::string::npos);
+  CHECK(user_error([&] {
+          decode_image_file(with_channels(folder, {"a.R", "a.G", "a.B", "b.c.R", "b.c.G", "b.c.B"}));
+        }).ends_with("it has R, G and B in the layers a, b.c; save the one that is meant alone"));
+}
+
+TEST_CASE("a picture that may not grow to its size is refused with the reason, whatever its format") {
+  const TemporaryFolder folder;
+  const auto bytes = noise<std::uint8_t>(64 * 64 * 3);
+  const std::vector<float> floats(bytes.begin(), bytes.end());
+  rlimit old{};
+  REQUIRE(getrlimit(RLIMIT_FSIZE, &old) == 0);
+  rlimit lower = old;
+  lower.rlim_cur = 4000;
+  const auto before = std::signal(SIGXFSZ, SIG_IGN);
+  for (const std::string name : {"a.png", "a.exr", "a.hdr"}) {
+    folder.write(name, "old");
+    ImageToWrite image{64, 64, 3, name != "a.png", bytes.data(), 64 * 3, {}};
+    if (image.is_float) image.upper_row = floats.data(), image.row_stride = 64 * 3 * sizeof(float);
+    REQUIRE(setrlimit(RLIMIT_FSIZE, &lower) == 0);
+    const std::string message = user_error([&] { write_image_file(folder.name(name), image); });
+    REQUIRE(setrlimit(RLIMIT_FSIZE, &old) == 0);
+    CHECK(message == folder.name(name) + ": cannot be written: File too large");
+    CHECK(read_file(folder.name(name)) == "old");
+  }
+  std::signal(SIGXFSZ, before);
+  CHECK(std::distance(std::filesystem::directory_iterator(folder.path), std::filesystem::directory_iterator()) == 3);
 }
 
 TEST_CASE("a picture with a question mark in its name is refused with the reason") {

@@ -206,6 +206,12 @@ TEST_CASE("an .exr file is read as it is, row 0 at the zenith") {
     for (std::size_t c = 0; c < 3; ++c) CHECK(e.radiance[i][int(c)] == values[3 * i + c]);
   write_image(folder.name("grey.exr"), 6, 4, 1, std::vector<float>(24, 2.5f));
   CHECK(load_environment(folder.name("grey.exr")).radiance[5] == glm::vec3(2.5f));
+  write_image(folder.name("layer.exr"), 6, 4, 3, values, "zip", {"light.B", "light.G", "light.R"});
+  CHECK(load_environment(folder.name("layer.exr")).radiance[5] == glm::vec3(values[17], values[16], values[15]));
+  write_image(folder.name("part.exr"), 6, 4, 2, std::vector<float>(48, 1.0f), "zip", {"R", "G"});
+  CHECK(user_error([&] { load_environment(folder.name("part.exr")); }) ==
+        folder.name("part.exr") + ": cannot be read as an image: its channels are R, G; save it with R, G and B, or " +
+            "one channel of grey");
 }
 
 TEST_CASE("radiance that is NaN, infinite, negative or too large to be summed is refused by pixel, or clamped") {

@@ -12,13 +12,14 @@
 // values: row 0 is the upper one, `channels` a pixel.
 template <class T>
 void write_image(const std::string& path, int width, int height, int channels, const std::vector<T>& values,
-                 const char* compression = nullptr) {
+                 const char* compression = nullptr, const std::vector<std::string>& channel_names = {}) {
   const auto format = sizeof(T) == 1   ? OIIO::TypeDesc::UINT8
                       : sizeof(T) == 2 ? OIIO::TypeDesc::UINT16
                                        : OIIO::TypeDesc::FLOAT;
   const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(path);
   REQUIRE(out);
   OIIO::ImageSpec spec(width, height, channels, format);
+  if (!channel_names.empty()) spec.channelnames = channel_names;
   spec.attribute("oiio:UnassociatedAlpha", 1);
   if (compression) spec.attribute("compression", compression);
   REQUIRE(out->open(path, spec));

@@ -100,7 +100,8 @@ int BenchVerb::run() const {
   output.require_not_read(files_read(subject, shading));
   if (!folder.empty()) {
     require_writable_folder(folder);
-    for (const std::string& name : files_written()) require_writable_file(output.claimed(name));
+    if (std::filesystem::is_directory(folder))
+      for (const std::string& name : files_written()) require_writable_file(output.claimed(name));
   }
   return axes.empty() ? time_techniques(output) : time_scaling(output);
 }
@@ -114,8 +115,10 @@ std::vector<std::string> BenchVerb::files_written() const {
 
 void BenchVerb::write_so_far(const Output& output, const std::string& name, const std::string& csv,
                              const Json& json) const {
-  if (!folder.empty())
+  if (!folder.empty()) {
+    make_folder(folder);
     if (const std::string path = output.claimed(name); is_replaced_by_writing(path)) write_file(path, csv);
+  }
   output.json_so_far(json);
 }
 
@@ -166,6 +169,7 @@ int BenchVerb::time_scaling(const Output& output) const {
   output.text(table_text(result.rows));
   for (const std::string& note : result.notes) output.note(note);
   if (!folder.empty()) {
+    make_folder(folder);
     write_file(output.claimed("scaling.csv"), result.rows.csv());
     write_pictures(folder, result.pictures, output);
   }
@@ -221,6 +225,7 @@ int BenchVerb::time_techniques(const Output& output) const {
   }
   output.text(report.text() + skipped);
   if (!folder.empty()) {
+    make_folder(folder);
     write_file(output.claimed("bench.csv"), report.csv());
     write_pictures(folder, report.pictures(), output);
   }

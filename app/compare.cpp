@@ -220,8 +220,9 @@ class CompareRun {
   }
 
   void write_pictures(const Shading& shader, const std::string& backend, const Frame& frame) {
-    if (!verb_.folder.empty() && backend != "softpipe")
-      write_picture(output_.claimed(frame_name(picture_of(shader), backend)), frame, verb_.picture);
+    if (verb_.folder.empty() || backend == "softpipe") return;
+    make_folder(verb_.folder);
+    write_picture(output_.claimed(frame_name(picture_of(shader), backend)), frame, verb_.picture);
   }
 
   // softpipe keeps denormals where the dialect flushes them: known, counted, no mismatch.

@@ -76,6 +76,7 @@ int ExperimentVerb::run() {
   output.text(csv ? result.rows.csv() : table_text(result.rows));
   for (const std::string& note : result.notes) output.note(note);
   if (!folder.empty()) {
+    make_folder(folder);
     write_file(output.claimed(name + ".csv"), result.rows.csv());
     for (const Picture& picture : result.pictures)
       for (const std::string& file : picture_files(picture.name)) output.claimed(file);  // ends what claimed too little

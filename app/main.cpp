@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <iostream>
@@ -74,7 +75,10 @@ int run(int argc, char** argv) {
     return fail(one_line(error.what()) + " (twinshade " + verb + "--help lists what there is)");
   }
   for (const Verb& verb : verbs)
-    if (verb.command->parsed()) return run_verb(verb);
+    if (verb.command->parsed()) {
+      require_output_names(*verb.command);
+      return run_verb(verb);
+    }
   return 2;
 }
 
@@ -95,10 +99,16 @@ void keep_standard_numbers() {
     if (fcntl(fd, F_GETFD) < 0) open("/dev/null", O_RDONLY);
 }
 
+// A file may grow to a limit (ulimit -f) only: then writing to it fails as on a full disk, and what is half-written is
+// removed, instead of ending the process without a word. The programs that this one starts inherit it: g++ says that
+// its file is too large, where the signal would make it ask for a bug report.
+void survive_limits_of_files() { std::signal(SIGXFSZ, SIG_IGN); }
+
 }  // namespace
 }  // namespace twinshade
 
 int main(int argc, char** argv) {
+  twinshade::survive_limits_of_files();
 #if TWINSHADE_HAS_GL
   if (const std::optional<int> worker = twinshade::run_gl_worker_if_asked(argc, argv)) return *worker;
 #endif

@@ -331,6 +331,15 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
              [&](const std::string& text) { options.tonemap = Tonemap(index_of(kTonemapNames, "tone curve", text)); });
 }
 
+void require_output_names(const CLI::App& command) {
+  for (const char* name : {"-o", "--json", "--junit"}) {
+    const CLI::Option* option = command.get_option_no_throw(name);
+    if (option && option->count() > 0 && option->as<std::string>().empty())
+      throw UserError(fmt::format("{} '': the name is empty; name the {} to write", name,
+                                  option->get_type_name() == "DIR" ? "folder" : "file"));
+  }
+}
+
 void apply(const CommonOptions& options) {
   set_thread_count(options.threads);
   machine_isa();  // a wrong TWINSHADE_ISA is said before any work

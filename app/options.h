@@ -114,6 +114,10 @@ void add_include_option(CLI::App& command, std::vector<std::string>& folders);
 void add_time_limit_option(CLI::App& command, double& seconds);
 void add_picture_options(CLI::App& command, PictureOptions& options);
 
+// UserError for an option of a file or folder to write whose name is empty, as of a script's variable that is not set:
+// it is not the same as to leave the option out.
+void require_output_names(const CLI::App& command);
+
 // Sets the thread count; to be called once the options are parsed.
 void apply(const CommonOptions& options);
 

@@ -165,11 +165,22 @@ std::vector<std::string> files_of_shader(const std::string& shader, const std::v
 
 void require_writable_folder(const std::string& folder) {
   std::error_code code;
+  fs::path there = folder;  // as far as it is there: the rest would be made in that
+  fs::file_status status = fs::symlink_status(there, code);
+  for (; status.type() == fs::file_type::not_found && there != "."; status = fs::symlink_status(there, code))
+    there = there.has_parent_path() ? there.parent_path() : fs::path(".");
+  if (status.type() == fs::file_type::none) throw UserError(folder + ": cannot be created: " + code.message());
+  const bool whole = there == fs::path(folder);
+  const std::string trouble = folder + (whole ? ": " : ": cannot be created: " + there.string() + " ");
+  if (!fs::is_directory(there, code)) throw UserError(trouble + "is not a folder");
+  if (::access(there.c_str(), W_OK | X_OK) != 0)
+    throw UserError(trouble + "cannot be written to: " + std::strerror(errno));
+}
+
+void make_folder(const std::string& folder) {
+  std::error_code code;
   fs::create_directories(folder, code);
   if (code) throw UserError(folder + ": cannot be created: " + code.message());
-  if (!fs::is_directory(folder, code)) throw UserError(folder + ": is not a folder");
-  if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    throw UserError(folder + ": cannot be written to: " + std::strerror(errno));
 }
 
 std::string hex_float(float value) {

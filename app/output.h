@@ -60,8 +60,11 @@ class Output {
 // pipe can be read once only: alone.
 std::vector<std::string> files_of_shader(const std::string& shader, const std::vector<std::string>& include_folders);
 
-// Creates `folder` and those above it. UserError where that cannot be done or it cannot be written to.
+// UserError where nothing could be written into `folder`, which need not be there yet: to be asked before any work. A
+// run that is refused leaves no folder: it is made with the first file.
 void require_writable_folder(const std::string& folder);
+// Creates `folder` and those above it where they are missing. UserError where that cannot be done.
+void make_folder(const std::string& folder);
 
 // 1.25 and 0x1.4p+0; NaN with its bits.
 std::string hex_float(float value);

@@ -270,6 +270,69 @@ TEST_CASE("outputs that cannot be written are refused before anything is drawn")
   CHECK(folder.names() == std::vector<std::string>{"file", "taken.exr"});
 }
 
+TEST_CASE("an empty name of what to write is refused by its option") {
+  for (const char* option : {"-o", "--output"})
+    for (const char* verb : {"render", "bake", "compare", "bench"})
+      check_refused({verb, "quad", option, ""}, {"-o '': the name is empty; name the f"});
+  check_refused({"translate", "h4", "-o", ""}, {"-o '': the name is empty; name the file to write"});
+  check_refused({"experiment", "frobenius", "-o", ""}, {"-o '': the name is empty; name the folder to write"});
+  check_refused({"list", "--json", ""}, {"--json '': the name is empty; name the file to write"});
+  check_refused({"check", "a.frag", "--junit", ""}, {"--junit '': the name is empty"});
+  check_refused({"eval", "a.frag", "--cases", "a.json", "--junit", ""}, {"--junit '': the name is empty"});
+}
+
+TEST_CASE("a refusal makes no folder of results, and what would keep it from being made is said before any work") {
+  const Folder folder;
+  const std::string fresh = folder / "new/results", file = folder.file("file", "x");
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"bench", "quad", "--scaling", "overdraw"},
+                                                    {"bench", "quad", "--scaling", "threads", "--technique", "unc3"},
+                                                    {"bench", "quad", "--technique", "h5"},
+                                                    {"compare", "quad", "--technique", "h5"},
+                                                    {"compare", "courtyrd"},
+                                                    {"experiment", "frobenius", "--basis", "h5"}}) {
+    std::vector<std::string> refused = arguments;
+    refused.insert(refused.end(), {"-o", fresh});
+    if (arguments[0] == "bench") refused.insert(refused.end(), {"--threads", "1"});
+    check_refused(refused, {});
+  }
+  const std::string below = file + "/results", long_name = folder / std::string(300, 'x');
+  check_refused({"compare", "quad", "-o", below}, {below + ": cannot be created: " + file + " is not a folder"});
+  check_refused({"compare", "quad", "-o", long_name}, {long_name + ": cannot be created: File name too long"});
+  CHECK(folder.names() == std::vector<std::string>{"file"});
+  CHECK(run_twinshade({"experiment", "frobenius", "--basis", "sh2", "-o", fresh}).code == 0);
+  CHECK(std::filesystem::exists(fresh + "/frobenius.csv"));
+}
+
+TEST_CASE("what may not grow to its size is refused by name, the old file stays, and a bake is only not cached") {
+  const Folder folder;
+  const std::vector<std::string> pictures{"a.exr", "a.hdr", "a.png"};
+  const std::vector<std::string> bake = small_quad({"bake"}, {"--technique", "h4", "-o", folder / "a.bundle"});
+  REQUIRE(run_twinshade(bake).code == 0);  // its light is in the cache now
+  for (const std::string& name : pictures)
+    REQUIRE(run_twinshade({"render", folder / "a.bundle", "--technique", "h4", "-o", folder / name}).code == 0);
+  const std::string bundle = content_of(folder / "a.bundle"), picture = content_of(folder / "a.png");
+  folder.file("a.cpp", "old");
+  const std::vector<std::string> before = folder.names();
+  rlimit old{};
+  REQUIRE(getrlimit(RLIMIT_FSIZE, &old) == 0);
+  rlimit lower = old;
+  lower.rlim_cur = 512;
+  REQUIRE(setrlimit(RLIMIT_FSIZE, &lower) == 0);  // inherited by the program
+  for (const std::string& name : pictures)
+    check_refused({"render", folder / "a.bundle", "--technique", "h4", "-o", folder / name},
+                  {(folder / name) + ": cannot be written: File too large"});
+  check_refused(bake, {"a.bundle: cannot be written: File too large"});
+  check_refused({"translate", "h4", "-o", folder / "a.cpp"}, {"a.cpp: cannot be written: File too large"});
+  const Run fresh = run_twinshade(small_quad({"render"}, {"--technique", "h4", "--seed", "20231"}));
+  REQUIRE(setrlimit(RLIMIT_FSIZE, &old) == 0);
+  CHECK(fresh.code == 0);
+  CHECK(fresh.err.find("bake not cached: ") != std::string::npos);
+  CHECK(folder.names() == before);
+  CHECK(content_of(folder / "a.bundle") == bundle);
+  CHECK(content_of(folder / "a.png") == picture);
+  CHECK(content_of(folder / "a.cpp") == "old");
+}
+
 TEST_CASE("a folder without permission is refused") {
   if (::geteuid() == 0) {
     MESSAGE("not tested: root may write everywhere");

@@ -90,6 +90,13 @@ bool base64_decoded(std::string_view text, std::string& bytes) {
   return true;
 }
 
+// "[json.exception.type_error.302] type must be number, but is string"
+std::string without_library_name(const json::exception& error) {
+  const std::string what = error.what();
+  const std::size_t end = what.find("] ");
+  return what[0] == '[' && end != std::string::npos ? what.substr(end + 2) : what;
+}
+
 }  // namespace
 
 double gltf_number(const json& object, const char* key, double fallback) {
@@ -125,7 +132,7 @@ GltfDocument::GltfDocument(const std::string& path) : path_(path) {
     check_extensions();
     read_buffers();
   } catch (const json::exception& error) {
-    fail("damaged: " + std::string(error.what()));
+    fail_damaged(error);
   }
 }
 
@@ -143,6 +150,14 @@ void GltfDocument::fail(const std::string& what) const {
   for (char& c : line)
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';
   throw UserError(line);
+}
+
+void GltfDocument::fail_damaged(const json::exception& error) const {
+  std::string what = without_library_name(error);
+  if (what[0] == '(')  // "(/buffers/0) key 'byteLength' not found"
+    if (const std::size_t end = what.find(") "); end != std::string::npos)
+      what = what.substr(1, end - 1) + ": " + what.substr(end + 2);
+  fail("damaged: " + what);
 }
 
 void GltfDocument::read_container(const std::string& content) {
@@ -165,7 +180,7 @@ void GltfDocument::read_container(const std::string& content) {
   try {
     root_ = json::parse(text);
   } catch (const json::exception& error) {
-    fail("truncated or damaged JSON: " + std::string(error.what()));
+    fail("truncated or damaged JSON: " + without_library_name(error));
   }
 }
 
@@ -289,13 +304,16 @@ GltfDocument::Layout GltfDocument::layout(std::size_t accessor) const {
   const std::size_t size = columns * result.column_stride;
   const auto fit = [&](std::string_view bytes, std::uint64_t offset, std::size_t element, std::size_t stride,
                        std::uint64_t count, const char* part) {
-    if (count > 0 && (offset > bytes.size() || stride < element || element > bytes.size() - offset ||
+    if (count > 0 && (offset > bytes.size() || element > bytes.size() - offset ||
                       (count - 1) > (bytes.size() - offset - element) / stride))
       fail("damaged: " + name + part + " ends beyond its bufferView");
     return bytes.substr(std::size_t(std::min<std::uint64_t>(offset, bytes.size())));
   };
   if (const int index = gltf_index(object, "bufferView"); index >= 0) {
     result.stride = std::size_t(unsigned_number(element("bufferViews", std::size_t(index)), "byteStride", size));
+    if (result.stride < size)
+      fail("damaged: " + name + " has elements of " + std::to_string(size) + " bytes, but bufferView " +
+           std::to_string(index) + " a byteStride of " + std::to_string(result.stride));
     result.bytes =
         fit(view(std::size_t(index)), unsigned_number(object, "byteOffset", 0), size, result.stride, result.count, "");
   } else if (result.count > kMostElementsWithoutView) {

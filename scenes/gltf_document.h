@@ -3,6 +3,9 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#if !JSON_DIAGNOSTICS
+#error "JSON_DIAGNOSTICS=1 is needed wherever this is included: with it JSON has another layout"
+#endif
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +19,8 @@ class GltfDocument {
   explicit GltfDocument(const std::string& path);
 
   [[noreturn]] void fail(const std::string& what) const;  // UserError: "path: what"
+  // The same for what is not there or of another type, with its place in the JSON where it has one.
+  [[noreturn]] void fail_damaged(const nlohmann::json::exception& error) const;
 
   const std::string& path() const { return path_; }
   // This file and its buffers.

@@ -43,7 +43,7 @@ class Reader {
     try {
       read_all();
     } catch (const json::exception& error) {
-      document_.fail("damaged: " + std::string(error.what()));
+      document_.fail_damaged(error);
     }
     return std::move(model_);
   }

@@ -39,6 +39,39 @@ TEST_CASE("a small file that claims millions of vertices without data is refused
                      "1048576 may be") != std::string::npos);
 }
 
+TEST_CASE("what is missing or of another type is named by its place in the file") {
+  TemporaryFolder folder;
+  GltfWriter writer;
+  writer.mesh(writer.square());
+  const json whole = json::parse(writer.gltf("m.bin"));
+  folder.write("m.bin", writer.binary);
+  const auto refused = [&](auto change) {
+    json root = whole;
+    change(root);
+    return user_error([&] { load_scene(folder.write("m.gltf", root.dump())); });
+  };
+  for (const std::pair<std::string, std::string>& pair : {
+           std::pair<std::string, std::string>(refused([](json& r) { r["buffers"][0].erase("byteLength"); }),
+                                               "m.gltf: damaged: /buffers/0: key 'byteLength' not found"),
+           std::pair<std::string, std::string>(
+               refused([](json& r) { r["buffers"][0]["byteLength"] = "long"; }),
+               "m.gltf: damaged: /buffers/0/byteLength: type must be number, but is string"),
+           std::pair<std::string, std::string>(
+               refused([](json& r) { r["accessors"][1]["type"] = 3; }),
+               "m.gltf: damaged: /accessors/1/type: type must be string, but is number"),
+           std::pair<std::string, std::string>(refused([](json& r) { r["nodes"][0]["mesh"] = json::array(); }),
+                                               "m.gltf: damaged: /nodes/0/mesh: type must be number, but is array"),
+           std::pair<std::string, std::string>(
+               refused([](json& r) { r["bufferViews"][0]["byteStride"] = 4; }),
+               "m.gltf: damaged: accessor 0 has elements of 12 bytes, but bufferView 0 a byteStride of 4"),
+       }) {
+    CHECK(pair.first.substr(pair.first.find("m.gltf")) == pair.second);
+  }
+  CHECK(user_error([&] {
+          load_scene(folder.write("m.gltf", "{\"asset\": "));
+        }).find("m.gltf: truncated or damaged JSON: parse error at line 1, column 11: ") != std::string::npos);
+}
+
 TEST_CASE("a URI with a control character in it is refused") {
   TemporaryFolder folder;
   GltfWriter writer;

@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "cpu_shaders/load/load.h"
 #include "cpu_shaders/machine.h"
+#include "cpu_shaders/translate/source_lines.h"
 #include "raster/tiled/tiled_renderer.h"
 #if TWINSHADE_HAS_GL
 #include "raster/gl/gl_renderer.h"
@@ -71,7 +72,12 @@ Frame Machines::draw(const std::string& backend, const Bundle& bundle, const Sha
     return shade_gl(bundle, source, *cpu_frame, host_fma_, options.time_limit_seconds);
   }
   require_frame_memory(bundle.width, bundle.height, backend);
-  return renderer(backend).draw(bundle, source, options);
+  try {
+    return renderer(backend).draw(bundle, source, options);
+  } catch (const UnboundError& error) {
+    const std::string whole = error.variable.substr(0, error.variable.find_first_of(".["));  // of "light.colour"
+    throw UserError(SourceLines(source).declaration(whole).text() + ": " + error.reason);
+  }
 }
 
 bool Machines::uses_derivatives(const ShaderSource& source) const {

@@ -20,6 +20,7 @@
 #include "base/portable_math.h"
 #include "scenes/material_image.h"
 #include "scenes/mtl_textures.h"
+#include "scenes/obj_indices.h"
 #include "scenes/obj_lines.h"
 
 namespace twinshade {
@@ -49,6 +50,13 @@ std::string trimmed(const std::string& text) {
   const char* const blanks = " \t\r";
   const std::size_t first = text.find_first_not_of(blanks);
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) + 1 - first);
+}
+
+// "red" of "usemtl red"; empty where the statement has another keyword.
+std::string name_behind(std::string_view keyword, std::string_view statement) {
+  const bool has = statement.starts_with(keyword) && statement.size() > keyword.size() &&
+                   (statement[keyword.size()] == ' ' || statement[keyword.size()] == '\t');
+  return has ? trimmed(std::string(statement.substr(keyword.size()))) : "";
 }
 
 std::string library_name(std::size_t index) { return "library_" + std::to_string(index); }
@@ -122,10 +130,13 @@ class Reader {
     constexpr std::string_view kLibrary = "mtllib";
     std::string text;
     text.reserve(content.size());
+    ObjIndices indices;
     for (ObjLines lines(content); lines.next(); text += '\n') {
       const std::string_view line = lines.statement();
       const std::string_view rest = line.substr(std::min(kLibrary.size(), line.size()));
       if (!line.starts_with(kLibrary) || (!rest.empty() && rest.find_first_of(" \t") != 0)) {
+        indices.read(line, path_, lines.number());
+        if (const std::string name = name_behind("usemtl", line); !name.empty()) used_.emplace(name, lines.number());
         add_statement(text, line, path_, lines.number());
         continue;
       }
@@ -134,6 +145,7 @@ class Reader {
         model_.files.push_back(file);
         std::error_code code;
         if (!fs::exists(file, code) || fs::is_directory(file, code)) {
+          library_missing_ = true;
           model_.notes.push_back("material library " + name +
                                  (fs::exists(file, code) ? " is a folder" : " is missing") +
                                  ": its materials are plain");
@@ -142,11 +154,29 @@ class Reader {
         text += "mtllib " + library_name(libraries_.size()) + "\n";
         std::set<std::string> ignored;
         libraries_.push_back(with_plain_textures(with_line_feeds(without_byte_order_mark(read_file(file))), ignored));
+        for (ObjLines in(libraries_.back()); in.next();) made_.insert(name_behind("newmtl", in.statement()));
         for (const std::string& option : ignored)
           model_.notes.push_back("material library " + name + ": the option " + option + " of its textures is ignored");
       }
     }
+    indices.check(path_);
+    if (!library_missing_) note_unknown_materials();  // else that has been said
     return text;
+  }
+
+  void note_unknown_materials() {
+    constexpr std::size_t kMost = 8;
+    std::string names;
+    std::size_t unknown = 0, first = 0;
+    for (const auto& [name, line] : used_) {
+      if (made_.count(name)) continue;
+      if (unknown++ < kMost) names += (names.empty() ? "" : ", ") + name;
+      first = first ? std::min(first, line) : line;
+    }
+    if (unknown > kMost) names += " and " + std::to_string(unknown - kMost) + " more";
+    if (unknown > 0)
+      model_.notes.push_back("line " + std::to_string(first) + ": usemtl names what no material library has, " + names +
+                             ": plain");
   }
 
   // Names may have blanks in them: a file of the whole name is the one that is meant.
@@ -215,7 +245,10 @@ class Reader {
 
   std::string path_;
   Model model_;
-  std::vector<std::string> libraries_;  // texts of those that are there, in the model's order
+  std::vector<std::string> libraries_;       // texts of those that are there, in the model's order
+  std::map<std::string, std::size_t> used_;  // materials by name, with the first line of each
+  bool library_missing_ = false;
+  std::set<std::string> made_;  // by the libraries
   std::map<std::pair<std::string, bool>, int> images_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "raster/tiled/tiled_renderer.h"
 
 namespace twinshade::tiled {
 namespace {
@@ -72,8 +73,9 @@ class Binder {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const {
-    throw UserError("shader " + quoted(module_.name) + ": " + what);
+  // variable: as the shader declares it.
+  [[noreturn]] void fail(const char* variable, const std::string& what) const {
+    throw UnboundError(module_.name, variable, what);
   }
 
   void bind_inputs() {
@@ -86,7 +88,8 @@ class Binder {
       const ShaderVariable& input = module_.inputs[i];
       const bool flat = input.flat || input.scalar != Scalar::f32;
       if (input.noperspective && !flat && mode_ == AttributeMode::exact)
-        fail("input " + quoted(input.name) + " is noperspective, which only native attributes have");
+        fail(input.name, "input " + quoted(input.name) +
+                             " is noperspective, which only native attributes have: draw with --attributes native");
       std::uint32_t component = input.first_component;
       for (std::uint32_t element = 0; element < std::max(1u, input.array_length); ++element)
         for (std::uint32_t column = 0; column < input.columns; ++column, component += input.rows)
@@ -100,10 +103,12 @@ class Binder {
   void bind_attribute(const ShaderVariable& input, const std::string& name, std::uint32_t component,
                       Interpolation interpolation) {
     const Attribute* attribute = bundle_.find_attribute(name);
-    if (!attribute) fail("input " + quoted(name) + " is not in the bundle; " + inventory(bundle_.attributes));
+    if (!attribute)
+      fail(input.name, "input " + quoted(name) + " is not in the bundle; " + inventory(bundle_.attributes));
     if (attribute->scalar != input.scalar || attribute->components != input.rows)
-      fail("input " + quoted(name) + " is declared " + type_name(input.scalar, 1, input.rows, 0) +
-           ", but the bundle's attribute is " + type_name(attribute->scalar, 1, attribute->components, 0));
+      fail(input.name, "input " + quoted(name) + " is declared " + type_name(input.scalar, 1, input.rows, 0) +
+                           ", but the bundle's attribute is " +
+                           type_name(attribute->scalar, 1, attribute->components, 0));
     const std::size_t stride = module_.input_components;
     for (std::size_t v = 0; v < bundle_.vertex_count(); ++v)
       std::copy_n(&attribute->values[v * input.rows], input.rows, &draw_.vertex_inputs[v * stride + component]);
@@ -124,11 +129,14 @@ class Binder {
         put_uniform(wanted, wanted.initial);
         continue;
       }
-      if (!uniform) fail("uniform " + quoted(wanted.name) + " is not in the bundle; " + inventory(bundle_.uniforms));
+      if (!uniform)
+        fail(wanted.name, "uniform " + quoted(wanted.name) + " is not in the bundle and has no initial value; " +
+                              inventory(bundle_.uniforms));
       const std::string wanted_type = type_name(wanted.scalar, wanted.columns, wanted.rows, wanted.array_length);
       const std::string type = type_name(uniform->scalar, uniform->columns, uniform->rows, uniform->array_length);
       if (type != wanted_type)
-        fail("uniform " + quoted(wanted.name) + " is declared " + wanted_type + ", but the bundle's is " + type);
+        fail(wanted.name,
+             "uniform " + quoted(wanted.name) + " is declared " + wanted_type + ", but the bundle's is " + type);
       put_uniform(wanted, uniform->values.data());
     }
   }
@@ -179,12 +187,13 @@ class Binder {
   void bind_buffer(const ShaderResource& wanted, bool storage) {
     const std::string what = (storage ? "storage buffer " : "uniform block ") + quoted(wanted.name);
     const Buffer* buffer = bundle_.find_buffer(wanted.name);
-    if (!buffer) fail(what + " is not in the bundle; " + inventory(bundle_.buffers));
+    if (!buffer) fail(wanted.name, what + " is not in the bundle; " + inventory(bundle_.buffers));
     if (buffer->storage != storage)
-      fail(what + ": the bundle's buffer of that name is a " + (buffer->storage ? "storage buffer" : "uniform block"));
+      fail(wanted.name,
+           what + ": the bundle's buffer of that name is a " + (buffer->storage ? "storage buffer" : "uniform block"));
     if (buffer->bytes.size() < wanted.minimum_size)
-      fail(what + " needs " + std::to_string(wanted.minimum_size) + " bytes, but the bundle's has " +
-           std::to_string(buffer->bytes.size()));
+      fail(wanted.name, what + " needs " + std::to_string(wanted.minimum_size) + " bytes, but the bundle's has " +
+                            std::to_string(buffer->bytes.size()));
     std::vector<std::byte>& copy = draw_.buffer_bytes[wanted.slot];
     copy = buffer->bytes;
     draw_.buffer_names[wanted.slot] = wanted.name;
@@ -194,10 +203,11 @@ class Binder {
   void bind_texture(const ShaderResource& wanted, TextureKind kind, const char* sampler) {
     static constexpr const char* kKinds[] = {"2D texture", "2D array texture", "cube texture"};
     const Texture* texture = bundle_.find_texture(wanted.name);
-    if (!texture) fail("texture " + quoted(wanted.name) + " is not in the bundle; " + inventory(bundle_.textures));
+    if (!texture)
+      fail(wanted.name, "texture " + quoted(wanted.name) + " is not in the bundle; " + inventory(bundle_.textures));
     if (texture->kind != kind)
-      fail(std::string(sampler) + " " + quoted(wanted.name) + " does not fit the bundle's " +
-           kKinds[int(texture->kind)]);
+      fail(wanted.name, std::string(sampler) + " " + quoted(wanted.name) + " does not fit the bundle's " +
+                            kKinds[int(texture->kind)]);
     TextureView& view = draw_.textures[wanted.slot];
     view.texels = texture->texels.data();
     view.width = std::int32_t(texture->width);
@@ -219,9 +229,9 @@ class Binder {
                                std::uint64_t(view.height - 1) * std::uint64_t(view.row_pitch) +
                                std::uint64_t(view.layers - 1) * std::uint64_t(view.layer_pitch);
     if (last / 2 > UINT32_MAX)
-      fail("texture " + quoted(resource.name) +
-           " takes more than 32 GiB, beyond which texels have no addresses: make it "
-           "smaller");
+      fail(resource.name, "texture " + quoted(resource.name) +
+                              " takes more than 32 GiB, beyond which texels have no addresses: make it "
+                              "smaller");
   }
 
   // Rows of large textures that no other layout has moved, where row_pitch says so.

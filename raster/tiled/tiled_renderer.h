@@ -4,9 +4,18 @@
 
 #include <functional>
 
+#include "base/error.h"
 #include "raster/renderer.h"
 
 namespace twinshade {
+
+// What the shader declares and the bundle lacks, or has as another type. The module knows no lines: who has the source
+// can say where `variable` is declared.
+struct UnboundError : UserError {
+  UnboundError(const std::string& shader, const std::string& name, const std::string& why)
+      : UserError("shader \"" + shader + "\": " + why), variable(name), reason(why) {}
+  std::string variable, reason;
+};
 
 // Draws with an already loaded module. Everything the CPU renderer does is here.
 Frame draw_tiled(const Bundle& bundle, const ShaderModule& module, const DrawOptions& options);

@@ -252,8 +252,13 @@ TEST_CASE("a shader that reads what the scene does not have is refused, naming i
   const Folder folder;
   const std::string shader =
       folder.file("wants.frag", "in vec2 v_warp;\nout vec4 color;\nvoid main() { color = vec4(v_warp, 0.0, 1.0); }\n");
-  check_refused(small_quad({"render"}, {"--shader", shader}), {"v_warp"});
-  check_refused(small_quad({"compare"}, {"--shader", shader, "--on", "cpu,egl"}), {"v_warp"});
+  check_refused(small_quad({"render"}, {"--shader", shader}), {"wants.frag:1: input \"v_warp\"", "v_uv"});
+  check_refused(small_quad({"compare"}, {"--shader", shader, "--on", "cpu,egl"}), {"wants.frag:1", "v_warp"});
+  const std::string light = folder.file("light.frag",
+                                        "struct Light { vec3 colour; };\nout vec4 color;\n\nuniform Light light;\n"
+                                        "void main() { color = vec4(light.colour, 1.0); }\n");
+  check_refused(small_quad({"render"}, {"--shader", light}),
+                {"light.frag:4: uniform \"light.colour\"", "initial value"});
 }
 
 TEST_CASE("outputs that cannot be written are refused before anything is drawn") {

@@ -101,6 +101,11 @@ TEST_CASE("what is missing from an OBJ is said or refused") {
   write_image(folder.name("normal.png"), 2, 2, 3, std::vector<std::uint8_t>(12, 90));
   CHECK(has_note(load_scene(folder.name("cube.obj")), "height field"));
 
+  folder.write("some.mtl", "  newmtl\tred one \nKd 1 0 0\n");
+  const std::string triangle = "mtllib some.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  CHECK(!has_note(load_scene(folder.write("m.obj", triangle + "usemtl red one\nf 1 2 3\n")), "usemtl"));
+  CHECK(has_note(load_scene(folder.write("m.obj", triangle + "usemtl red\nf 1 2 3\nusemtl blue\nf 1 3 2\n")),
+                 "line 5: usemtl names what no material library has, blue, red: plain"));
   for (const char* text : {"", "hello\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n",
                            "v 0 0 0\nv 1 0 0\nv nan 1 0\nf 1 2 3\n"}) {
     const std::string message = user_error([&] { load_scene(folder.write("bad.obj", text)); });

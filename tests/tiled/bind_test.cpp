@@ -65,7 +65,8 @@ TEST_CASE("missing and mistyped inputs are named with what the bundle has") {
         "shader \"wishes\": input \"v_key\" is declared int, but the bundle's attribute is uint");
   wishes.inputs = {{"v_value", Scalar::f32, 1, 4, 0, false, true, -1, 0}};
   CHECK(complaint(bundle, wishes) ==
-        "shader \"wishes\": input \"v_value\" is noperspective, which only native attributes have");
+        "shader \"wishes\": input \"v_value\" is noperspective, which only native attributes have: draw with "
+        "--attributes native");
   CHECK(complaint(bundle, wishes, AttributeMode::native) == "");
 }
 
@@ -113,7 +114,8 @@ TEST_CASE("uniforms land at their offsets and strides") {
         "shader \"wishes\": uniform \"k\" is declared mat2x2[3], but the bundle's is mat2x2[2]");
   wishes.uniforms = {{"exposure", Scalar::f32, 1, 1, 0, 0, 0, 0}};
   CHECK(complaint(bundle, wishes) ==
-        "shader \"wishes\": uniform \"exposure\" is not in the bundle; the bundle has light.colour, k[0], n");
+        "shader \"wishes\": uniform \"exposure\" is not in the bundle and has no initial value; the bundle has "
+        "light.colour, k[0], n");
 }
 
 TEST_CASE("textures and buffers must be of the kind and size that the shader declares") {

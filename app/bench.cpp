@@ -90,13 +90,13 @@ ShaderSource source_for_driver(const Shading& shading) {
 
 int BenchVerb::run() const {
   apply(common);
-  Output output(common);
+  Output output(common, {}, folder);
   if (cpu.isa) require_isa(*cpu.isa);
   if (thread_count() > processor_count())
     throw UserError(
         fmt::format("--threads {}: timings need a processor for each, and this process may use {} processors",
                     thread_count(), processor_count()));
-  if (!folder.empty()) output.claim(folder, files_written());
+  if (!folder.empty()) output.claim(files_written());
   output.require_not_read(files_read(subject, shading));
   if (!folder.empty()) {
     require_writable_folder(folder);

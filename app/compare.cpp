@@ -357,13 +357,13 @@ std::vector<std::string> CompareVerb::picture_names() const {
 
 int CompareVerb::run() const {
   apply(common);
-  Output output(common);
+  Output output(common, {}, folder);
   require_backends(backends);
   if (backends.size() < 2) throw UserError("--on: name at least two backends to compare, as cpu,egl");
   if (backends.front() == "softpipe") throw UserError("--on: softpipe shades what the CPU covered; name cpu first");
   if (cpu.number == Number::float64)
     throw UserError("--number float64: frames in double have other bits by design; twinshade render draws them");
-  if (!folder.empty()) output.claim(folder, picture_names());
+  if (!folder.empty()) output.claim(picture_names());
   output.require_not_read(files_read(subject, shading));
   if (!folder.empty()) require_writable_folder(folder);
   return CompareRun(*this, output).run();

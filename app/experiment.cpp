@@ -54,8 +54,8 @@ int ExperimentVerb::run() {
   const ExperimentInfo& experiment = find_experiment(name);
   require_taken(experiment);
   apply(common);
-  Output output(common);
-  if (!folder.empty()) output.claim(folder, files_written(experiment));
+  Output output(common, {}, folder);
+  if (!folder.empty()) output.claim(files_written(experiment));
   output.require_not_read(files_among(options.probes, environment_names()));
   if (!folder.empty()) require_writable_folder(folder);
   options.seed = common.seed;

@@ -25,14 +25,6 @@ void write_to_stdout(const std::string& text) {
     throw UserError(std::string("stdout: cannot be written: ") + std::strerror(errno));
 }
 
-// A file's path, or - for stdout; empty: not asked for.
-void write_to(const std::string& file, const std::string& text) {
-  if (file == "-")
-    write_to_stdout(text);
-  else if (!file.empty())
-    write_file(file, text);
-}
-
 // Whether two paths are one regular file, or would be if it were there. What is written to a device destroys nothing.
 bool same_file(const std::string& a, const std::string& b) {
   std::error_code code;
@@ -44,12 +36,12 @@ bool same_file(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-Output::Output(const CommonOptions& options, const std::string& junit_file)
-    : options_(options), junit_file_(junit_file) {
+Output::Output(const CommonOptions& options, const std::string& junit_file, const std::string& folder)
+    : options_(options), junit_file_(junit_file), folder_(folder) {
   if (options.json == "-" && junit_file == "-")
     throw UserError("--json - and --junit -: both go to stdout; name a file for one of them");
   for (const std::string& file : {options.json, junit_file})
-    if (!file.empty() && file != "-") require_writable_file(file);
+    if (!file.empty() && file != "-" && (fs::exists(folder) || !is_in_folder(file))) require_writable_file(file);
   if (const auto written = files(); written.size() == 2 && same_file(written[0].second, written[1].second))
     throw UserError("--json and --junit both write " + junit_file + ": name another file for one of them");
   shows_progress_ = !options.quiet && ::isatty(STDERR_FILENO);
@@ -62,8 +54,7 @@ std::vector<std::pair<std::string, std::string>> Output::files() const {
   return files;
 }
 
-void Output::claim(const std::string& folder, std::vector<std::string> names) {
-  folder_ = folder;
+void Output::claim(std::vector<std::string> names) {
   claimed_.insert(std::make_move_iterator(names.begin()), std::make_move_iterator(names.end()));
   for (const std::string& name : claimed_) {
     std::error_code missing;
@@ -71,7 +62,7 @@ void Output::claim(const std::string& folder, std::vector<std::string> names) {
     if (fs::is_symlink(fs::symlink_status(path, missing))) links_.push_back(path);
   }
   for (const auto& [option, file] : files())
-    if (claims(file)) throw UserError(option + ": -o " + folder + " writes it: name another file for one of them");
+    if (claims(file)) throw UserError(option + ": -o " + folder_ + " writes it: name another file for one of them");
 }
 
 std::string Output::claimed(const std::string& name) const {
@@ -84,10 +75,26 @@ bool Output::claims(const std::string& file) const {
   std::error_code code;
   if (fs::exists(file, code) && !fs::is_regular_file(file, code)) return false;
   const fs::path resolved = fs::weakly_canonical(fs::absolute(file, code), code);
-  if (!code && claimed_.contains(resolved.filename().string()) &&
-      resolved.parent_path() == fs::weakly_canonical(fs::absolute(folder_, code), code))
-    return true;
+  if (!code && claimed_.contains(resolved.filename().string()) && is_in_folder(file)) return true;
   return std::any_of(links_.begin(), links_.end(), [&](const std::string& link) { return same_file(file, link); });
+}
+
+bool Output::is_in_folder(const std::string& file) const {
+  if (folder_.empty()) return false;
+  std::error_code code;
+  const fs::path parent = fs::weakly_canonical(fs::absolute(file, code), code).parent_path();
+  fs::path folder = fs::weakly_canonical(fs::absolute(folder_, code), code);
+  if (!folder.has_filename()) folder = folder.parent_path();  // "out/"
+  return !code && parent == folder;
+}
+
+void Output::write_to(const std::string& file, const std::string& text) const {
+  if (file == "-") {
+    write_to_stdout(text);
+  } else if (!file.empty()) {
+    if (is_in_folder(file)) make_folder(folder_);
+    write_file(file, text);
+  }
 }
 
 void Output::require_not_read(const std::vector<std::string>& read, const std::string& written) const {

@@ -19,12 +19,12 @@ using Json = nlohmann::ordered_json;
 class Output {
  public:
   // Refuses files that cannot be written, and one file for two results, before any work is done. junit_file: what
-  // --junit says, of verbs that have it.
-  explicit Output(const CommonOptions& options, const std::string& junit_file = {});
-  // Says what files -o writes into `folder`, by name: all that it may write, before any work. Refuses --json and
-  // --junit there; require_not_read then keeps what is read from being replaced by them. The folder need not be there
-  // yet.
-  void claim(const std::string& folder, std::vector<std::string> names);
+  // --junit says, of verbs that have it. folder: what -o says, of verbs that make one: --json may be in it before it is
+  // there.
+  explicit Output(const CommonOptions& options, const std::string& junit_file = {}, const std::string& folder = {});
+  // Says what files -o writes into its folder, by name: all that it may write, before any work. Refuses --json and
+  // --junit of those names; require_not_read then keeps what is read from being replaced by them.
+  void claim(std::vector<std::string> names);
   // Where one of those goes; a name that was not claimed is a broken invariant.
   std::string claimed(const std::string& name) const;
   // Refuses to write over a file that the verb reads. `written`: what else it writes, beside --json and --junit and
@@ -44,12 +44,15 @@ class Output {
  private:
   void clear_progress() const;
   bool claims(const std::string& file) const;  // whether -o writes it
+  bool is_in_folder(const std::string& file) const;
+  // A file's path, or - for stdout; empty: not asked for.
+  void write_to(const std::string& file, const std::string& text) const;
   // What is said of a file, and the file; none for stdout.
   std::vector<std::pair<std::string, std::string>> files() const;
 
   const CommonOptions& options_;
   const std::string junit_file_;
-  std::string folder_;              // -o; empty: none
+  const std::string folder_;        // -o; empty: none
   std::set<std::string> claimed_;   // names of files in it
   std::vector<std::string> links_;  // those that are links: what one leads to is replaced
   bool shows_progress_ = false;

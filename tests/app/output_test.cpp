@@ -230,6 +230,22 @@ TEST_CASE("nothing is written over what a model names") {
   CHECK(run_twinshade(elsewhere).code == 0);
 }
 
+TEST_CASE("JSON may go into a folder of results that is not there yet, and into no other") {
+  const Folder folder;
+  for (const char* name : {"new/out", "new/out/", "other"}) {
+    const std::string out = folder / name, json = (std::filesystem::path(out) / "r.json").string();
+    const Run run = run_twinshade({"experiment", "frobenius", "-o", out, "--json", json});
+    INFO(run.err);
+    CHECK(run.code == 0);
+    CHECK(std::filesystem::is_regular_file(json));
+  }
+  const Run refused =
+      run_twinshade({"experiment", "frobenius", "-o", folder / "third", "--json", folder / "third/deep/r.json"});
+  CHECK(refused.code == 2);
+  CHECK(refused.err.find("third/deep") != std::string::npos);
+  CHECK(!std::filesystem::exists(folder / "third"));
+}
+
 TEST_CASE("nothing in a folder of results replaces what is read, nor another result") {
   const Folder folder;
   const std::string here = folder / ".", image = folder / "h4.cpu.png";

@@ -4,14 +4,13 @@
 
 #include "cpu_shaders/lint/parser.h"
 #include "cpu_shaders/lint/rules.h"
-#include "cpu_shaders/lint/tokens.h"
 #include "cpu_shaders/translate/compile_glsl.h"
 
 namespace twinshade {
 
 std::vector<LintFinding> lint(const ShaderSource& source) {
   compile_glsl(source);  // the parser below relies on valid GLSL
-  const lint_detail::TokenList tokens = lint_detail::tokenize(source);
+  const TokenList tokens = lint_detail::tokens_to_parse(source);
   std::vector<LintFinding> findings;
   const auto report = [&](const lint_detail::Expression& where, const LintRule& rule, const std::string& operation) {
     LintFinding finding{tokens.files[static_cast<std::size_t>(where.file)], where.line, std::string(rule.id), operation,

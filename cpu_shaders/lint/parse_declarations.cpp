@@ -59,6 +59,12 @@ Token Parser::take() {
   return token;
 }
 
+TokenList tokens_to_parse(const ShaderSource& source) {
+  TokenList list = tokenize(source);
+  list.tokens.push_back(list.end);
+  return list;
+}
+
 bool Parser::accept(std::string_view text) {
   if (!is(text)) return false;
   take();

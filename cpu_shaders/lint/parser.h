@@ -8,9 +8,12 @@
 #include <vector>
 
 #include "cpu_shaders/lint/expression.h"
-#include "cpu_shaders/lint/tokens.h"
+#include "cpu_shaders/source/glsl_tokens.h"
 
 namespace twinshade::lint_detail {
+
+// The shader's tokens, and behind them that of their end, at which a parser stops.
+TokenList tokens_to_parse(const ShaderSource& source);
 
 struct Variable {
   bool is_structure = false;  // no variable: the name of a structure, which type is

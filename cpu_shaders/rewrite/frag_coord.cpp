@@ -1,6 +1,5 @@
 #include "cpu_shaders/rewrite/frag_coord.h"
 
-#include "cpu_shaders/lint/tokens.h"
 #include "cpu_shaders/rewrite/token_edits.h"
 
 namespace twinshade {

@@ -437,7 +437,7 @@ class MakeExact : public Listener {
 ExactShader make_exact(const ShaderSource& source, ExactScope scope) {
   using namespace lint_detail;
   compile_glsl(source);  // the parser relies on valid GLSL
-  const TokenList tokens = tokenize(source);
+  const TokenList tokens = tokens_to_parse(source);
   // The files of shaders/exact/ stand as they are before the shader, unless it is they too that are rewritten.
   const auto stands_before = [&](const std::string& file) {
     return scope == ExactScope::written_out ? exact_file(file) == "written_out" : !exact_file(file).empty();

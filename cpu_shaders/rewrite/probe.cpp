@@ -434,7 +434,7 @@ class Probe : public Listener {
 ProbedShader add_probes(const ShaderSource& source, const std::optional<std::set<std::size_t>>& only) {
   using namespace lint_detail;
   if (!only) compile_glsl(source);  // the parser relies on valid GLSL
-  const TokenList tokens = tokenize(source);
+  const TokenList tokens = tokens_to_parse(source);
   Probe probe(tokens, only);
   probe.read();
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cpu_shaders/lint/tokens.h"
+#include "cpu_shaders/source/glsl_tokens.h"
 
 namespace twinshade::lint_detail {
 

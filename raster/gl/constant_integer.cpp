@@ -59,7 +59,7 @@ class Evaluator {
       failed_ |= !take(")");
       return value;
     }
-    if (at_ < end_ && tokens_[at_].kind == TokenKind::number) {
+    if (at_ < end_ && tokens_[at_].kind == Token::Kind::number) {
       char* rest = nullptr;
       const std::string& text = tokens_[at_].text;
       const long value = std::strtol(text.c_str(), &rest, 0);

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "cpu_shaders/source/preprocess.h"
-#include "raster/gl/new_keywords.h"
+#include "raster/gl/author_names.h"
 
 namespace twinshade::gl {
 namespace {
@@ -61,7 +61,7 @@ class Splitter {
   using Range = std::pair<std::size_t, std::size_t>;
 
   bool is(const char* text) const { return at_ < tokens_.size() && tokens_[at_].text == text; }
-  bool at_word() const { return at_ < tokens_.size() && tokens_[at_].kind == TokenKind::word; }
+  bool at_word() const { return at_ < tokens_.size() && tokens_[at_].kind == Token::Kind::name; }
 
   [[noreturn]] void fail(std::size_t token, const std::string& what) const {
     throw UserError(position(source_, tokens_[std::min(token, tokens_.size() - 1)]) + what);
@@ -217,7 +217,7 @@ std::vector<Declaration> split_declarations(const ShaderSource& source, const st
 }
 
 std::vector<std::string> initialized_uniforms(const ShaderSource& source) {
-  std::vector<Token> tokens = tokenize(source, preprocess(source)).tokens;
+  std::vector<Token> tokens = tokenize(source).tokens;
   rename_new_keywords(source, tokens);
   std::vector<std::string> names;
   for (const Declaration& d : split_declarations(source, tokens)) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "raster/gl/glsl_tokens.h"
+#include "cpu_shaders/source/glsl_tokens.h"
 
 namespace twinshade::gl {
 

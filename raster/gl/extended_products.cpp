@@ -18,7 +18,7 @@ bool is_extended_product(const Token& token) {
 bool is_call(const std::vector<Token>& tokens, std::size_t at) {
   if (at == 0 || at + 1 >= tokens.size() || tokens[at + 1].text != "(") return false;
   const Token& before = tokens[at - 1];
-  return before.kind != TokenKind::word || before.text == "else" || before.text == "do";
+  return before.kind != Token::Kind::name || before.text == "else" || before.text == "do";
 }
 
 }  // namespace

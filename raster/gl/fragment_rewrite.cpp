@@ -7,10 +7,10 @@
 
 #include "base/error.h"
 #include "cpu_shaders/source/preprocess.h"
+#include "raster/gl/author_names.h"
 #include "raster/gl/constant_integer.h"
 #include "raster/gl/declaration.h"
 #include "raster/gl/extended_products.h"
-#include "raster/gl/new_keywords.h"
 
 namespace twinshade::gl {
 namespace {
@@ -48,7 +48,7 @@ bool is_any(const std::string& text, std::initializer_list<const char*> names) {
 class Rewriter {
  public:
   Rewriter(const ShaderSource& source, InputStyle style)
-      : source_(source), style_(style), text_(tokenize(source, preprocess(source))), tokens_(text_.tokens) {}
+      : source_(source), style_(style), text_(tokenize(source)), tokens_(text_.tokens) {}
 
   FragmentShader run() {
     result_.extensions = text_.extensions;
@@ -93,14 +93,14 @@ class Rewriter {
 
   void refuse_own_names() const {
     for (std::size_t i = 0; i < tokens_.size(); ++i)
-      if (tokens_[i].kind == TokenKind::word && tokens_[i].text.rfind(kPrefix, 0) == 0)
+      if (tokens_[i].kind == Token::Kind::name && tokens_[i].text.rfind(kPrefix, 0) == 0)
         fail(i, "names that begin with " + std::string(kPrefix) + " are reserved: rename " + tokens_[i].text);
   }
 
   void scan_words() {
     for (std::size_t i = 0; i < tokens_.size(); ++i) {
       const std::string& text = tokens_[i].text;
-      if (tokens_[i].kind != TokenKind::word) continue;
+      if (tokens_[i].kind != Token::Kind::name) continue;
       ++count_[text];
       result_.discards |= text == "discard";
       result_.has_storage |= text == "buffer";
@@ -224,7 +224,7 @@ class Rewriter {
     const std::size_t open = d.type + 1;
     std::size_t close = open;
     while (tokens_[close].text != "}") ++close;
-    const bool named = tokens_[close + 1].kind == TokenKind::word;
+    const bool named = tokens_[close + 1].kind == Token::Kind::name;
     std::vector<std::string> prefixes = {named ? tokens_[close + 1].text + "." : ""};
     if (named && tokens_[close + 2].text == "[") {
       std::size_t end = close + 3;
@@ -355,7 +355,7 @@ class Rewriter {
 
   const ShaderSource& source_;
   const InputStyle style_;
-  TokenText text_;
+  TokenList text_;
   std::vector<Token>& tokens_;
   std::map<std::string, int> count_;
   std::map<std::string, long> constants_;

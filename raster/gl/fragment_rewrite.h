@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bundle/bundle.h"
-#include "raster/gl/glsl_tokens.h"
+#include "cpu_shaders/source/glsl_tokens.h"
 
 namespace twinshade::gl {
 

@@ -6,7 +6,7 @@
 #include "cpu_shaders/source/output_locations.h"
 #include "cpu_shaders/source/preprocess.h"
 #include "raster/gl/extended_products.h"
-#include "raster/gl/new_keywords.h"
+#include "raster/gl/author_names.h"
 #include "raster/row_grid.h"
 
 namespace twinshade::gl {
@@ -23,7 +23,7 @@ std::string attribute_functions_text(bool written_out) {
     source = make_exact(source, ExactScope::written_out).source;
     source.text.resize(source.text.rfind("void"));
   }
-  const TokenText tokens = tokenize(source, preprocess(source));
+  const TokenList tokens = tokenize(source);
   std::string functions;  // without its #line: in a driver's log these are generated lines
   for (const Token& token : tokens.tokens) {
     bool own = token.text == "ExactBarycentrics";

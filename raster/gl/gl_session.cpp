@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "raster/gl/declaration.h"
-#include "raster/gl/new_keywords.h"
+#include "raster/gl/author_names.h"
 
 namespace twinshade::gl {
 namespace {

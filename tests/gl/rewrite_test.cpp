@@ -5,10 +5,10 @@
 
 #include "base/error.h"
 #include "cpu_shaders/source/preprocess.h"
+#include "raster/gl/author_names.h"
 #include "raster/gl/constant_integer.h"
 #include "raster/gl/declaration.h"
 #include "raster/gl/fragment_rewrite.h"
-#include "raster/gl/new_keywords.h"
 #include "tests/gl/test_shaders.h"
 
 using namespace twinshade;
@@ -38,29 +38,6 @@ std::string rejection(const std::string& text, InputStyle style = InputStyle::gl
 const std::string kMain = "void main() {}\n";
 
 }  // namespace
-
-TEST_CASE("tokens put together again are the preprocessed text, line for line") {
-  const std::string text = "float a = 1.0e-5, b = .5e+3f;\n\nvoid main()\n{ a += b - 0x1Fu; }\n";
-  const ShaderSource source = shader(text);
-  const TokenText tokens = tokenize(source, preprocess(source));
-  for (const Token& token : tokens.tokens) {
-    if (token.text == "main") CHECK(token.line == 3);
-    if (token.text == "0x1Fu") CHECK(token.line == 4);
-  }
-  const auto is_number = [](const Token& token) { return token.kind == TokenKind::number; };
-  CHECK(std::count_if(tokens.tokens.begin(), tokens.tokens.end(), is_number) == 3);
-  CHECK(tokens_of(join(tokens)) == "float a = 1.0e-5 , b = .5e+3f ; void main ( ) { a + = b - 0x1Fu ; }");
-}
-
-TEST_CASE("#line directives give tokens their file, and become numbers for drivers") {
-  ShaderSource source = shader("");
-  source.files = {"a.frag", "b.glsl"};
-  const TokenText tokens = tokenize(source, "#line 7 \"b.glsl\"\nint x;\n#line 3 \"a.frag\"\n\nint y;\n");
-  REQUIRE(tokens.tokens.size() == 6);
-  CHECK(position(source, tokens.tokens[1]) == "b.glsl:7: ");
-  CHECK(position(source, tokens.tokens[4]) == "a.frag:4: ");
-  CHECK(join(tokens) == "#line 7 1\nint x;\n#line 3 0\n\nint y;\n");
-}
 
 TEST_CASE("inputs with any qualifiers become globals in exact mode and keep precise") {
   const FragmentShader result = globals(
@@ -106,9 +83,9 @@ TEST_CASE("every line stays where it was") {
       "{ discard; }\n";
   const FragmentShader result = globals(text);
   const ShaderSource source = shader(text);
-  const TokenText before = tokenize(source, preprocess(source));
-  const TokenText after = tokenize(source, result.text);
-  const auto line_of = [](const TokenText& tokens, const std::string& word) {
+  const TokenList before = tokenize(source);
+  const TokenList after = tokenize(source, result.text);
+  const auto line_of = [](const TokenList& tokens, const std::string& word) {
     for (const Token& token : tokens.tokens)
       if (token.text == word) return token.line;
     return -1;
@@ -117,6 +94,12 @@ TEST_CASE("every line stays where it was") {
     CAPTURE(word);
     CHECK(line_of(before, word) == line_of(after, word));
   }
+}
+
+TEST_CASE("operators of more than one character stay whole where a declaration is written anew") {
+  const FragmentShader result = globals("float a[1 << 2] = float[4](1.0, 2.0, 3.0, 4.0);\n" + kMain);
+  CHECK(contains(tokens_of(result.text), "float a [ 1 << 2 ] ; void twinshade_initialize_0"));
+  CHECK(contains(tokens_of(result.text), "twinshade_value [ 1 << 2 ] ="));
 }
 
 TEST_CASE("global initializers run after the inputs have been filled") {

@@ -1,6 +1,6 @@
 #include "raster/gl/worker/program.h"
 
-#include "raster/gl/new_keywords.h"
+#include "raster/gl/author_names.h"
 #include "raster/gl/worker/failure.h"
 
 namespace twinshade::gl {

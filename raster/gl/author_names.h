@@ -1,10 +1,10 @@
-// Names of a shader in an older version of GLSL that are keywords in the version that drivers read it as.
+// Names that drivers would take for keywords, under others.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "raster/gl/glsl_tokens.h"
+#include "cpu_shaders/source/glsl_tokens.h"
 
 namespace twinshade::gl {
 

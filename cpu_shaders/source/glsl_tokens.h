@@ -7,31 +7,33 @@
 
 #include "cpu_shaders/shader_source.h"
 
-namespace twinshade::gl {
-
-enum class TokenKind { word, number, punctuation };
+namespace twinshade {
 
 struct Token {
-  TokenKind kind;
-  std::string text;
+  enum class Kind { name, number, symbol, end };
+  Kind kind = Kind::end;
+  std::string text;    // numbers keep their spelling
   std::string before;  // white space, line ends and directives between the previous token and this one
-  int file = 0;        // index into ShaderSource::files
+  int file = 0;        // index into TokenList::files
   int line = 0;
 };
 
-struct TokenText {
+struct TokenList {
   std::vector<Token> tokens;
-  std::string after;                    // white space and directives behind the last token
+  Token end;                       // Kind::end: what is behind the last token
+  std::vector<std::string> files;  // as ShaderSource::files, or the shader's name alone; then what else #line names
   std::vector<std::string> extensions;  // the #extension lines, taken out of the text
 };
 
 // `preprocessed` may hold #version (dropped), #extension (collected), #line N "file" (written as #line N k, k an index
-// into source.files) and #pragma (kept).
-TokenText tokenize(const ShaderSource& source, const std::string& preprocessed);
+// into files) and #pragma (kept).
+TokenList tokenize(const ShaderSource& source, const std::string& preprocessed);
+// Of the source's text, preprocessed by glslang.
+TokenList tokenize(const ShaderSource& source);
 
-std::string join(const TokenText& text);
+std::string join(const TokenList& list);
 
-// "file:line: " of a token.
+// "file:line: " of a token of the source.
 std::string position(const ShaderSource& source, const Token& token);
 
-}  // namespace twinshade::gl
+}  // namespace twinshade

@@ -33,14 +33,16 @@ std::vector<glm::vec3> face_normals(const std::vector<glm::vec3>& corner_positio
   for (std::size_t start = 0; start < corners;) {
     std::size_t end = start;
     while (end < corners && place(order[end]) == place(order[start])) ++end;
+    dvec3 all(0);  // of what has an area
+    for (std::size_t i = start; i < end; ++i) all += area[order[i] / 3];
     for (std::size_t i = start; i < end; ++i) {
       const std::size_t own = order[i] / 3;
-      dvec3 sum = area[own];
-      if (cos_crease < 1 || unit[own] == dvec3(0))
+      const bool degenerate = unit[own] == dvec3(0);
+      dvec3 sum = degenerate ? all : area[own];
+      if (cos_crease < 1 && !degenerate)
         for (std::size_t j = start; j < end; ++j) {
           const std::size_t other = order[j] / 3;
-          if (other != own && (unit[own] == dvec3(0) || glm::dot(unit[own], unit[other]) >= cos_crease))
-            sum += area[other];
+          if (other != own && glm::dot(unit[own], unit[other]) >= cos_crease) sum += area[other];
         }
       const double length = glm::length(sum);
       normals[order[i]] = length > 0 ? glm::vec3(sum / length) : glm::vec3(0, 1, 0);

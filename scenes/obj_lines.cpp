@@ -39,6 +39,9 @@ constexpr Numbers kNumbers[] = {
     {"vt", [](std::size_t count) { return count >= 1 && count <= 3; }, "1 to 3 numbers (u v w)"},
     {"vn", [](std::size_t count) { return count == 3; }, "3 numbers (x y z)"}};
 
+constexpr Numbers kColour = {"Kd", [](std::size_t count) { return count == 1 || count == 3; },
+                             "3 numbers (r g b), or 1 for all of them"};
+
 // nan and inf, and what begins with them: that a value is not finite is said where it is used.
 bool is_not_finite(std::string_view text) {
   const auto begins = [&](std::string_view word) {
@@ -80,15 +83,16 @@ std::string shown(std::string_view word) {
   return text;
 }
 
-void add_numbers(std::string& text, std::string_view statement, const Numbers& numbers, const std::string& path,
-                 std::size_t line) {
+// Returns how many there were.
+std::size_t add_numbers(std::string& text, std::string_view statement, const Numbers& numbers, const std::string& path,
+                        std::size_t line) {
   const auto refuse = [&](const std::string& what) {
     throw UserError(path + ":" + std::to_string(line) + ": " + what + ": write " + std::string(numbers.keyword) +
                     " with " + numbers.wanted);
   };
   text += numbers.keyword;
   std::size_t count = 0;
-  for (std::size_t at = numbers.keyword.size();;) {
+  for (std::size_t at = 0;;) {
     while (at < statement.size() && is_blank(statement[at])) ++at;
     if (at == statement.size() || statement[at] == '#') break;
     const std::string_view rest = statement.substr(at);
@@ -103,7 +107,7 @@ void add_numbers(std::string& text, std::string_view statement, const Numbers& n
   }
   if (!numbers.right(count))
     refuse(std::string(numbers.keyword) + " has " + std::to_string(count) + (count == 1 ? " number" : " numbers"));
-  if (numbers.keyword == "vt" && count == 1) text += " 0";
+  return count;
 }
 
 }  // namespace
@@ -137,10 +141,23 @@ bool ObjLines::next() {
 void add_statement(std::string& text, std::string_view statement, const std::string& path, std::size_t number) {
   const std::string_view keyword =
       statement.substr(0, std::min(statement.find_first_of(kBetweenWords), statement.size()));
-  for (const Numbers& numbers : kNumbers)
-    if (keyword == numbers.keyword) return add_numbers(text, statement, numbers, path, number);
+  for (const Numbers& numbers : kNumbers) {
+    if (keyword != numbers.keyword) continue;
+    const std::size_t count = add_numbers(text, statement.substr(keyword.size()), numbers, path, number);
+    if (keyword == "vt" && count == 1) text += " 0";
+    return;
+  }
   const bool has_indices = keyword == "f" || keyword == "l" || keyword == "p";
   text += has_indices ? statement.substr(0, statement.find('#')) : statement;
+}
+
+void add_colour(std::string& text, std::string_view numbers, const std::string& path, std::size_t line) {
+  std::string added;
+  if (add_numbers(added, numbers, kColour, path, line) == 1) {
+    const std::string value = added.substr(kColour.keyword.size());
+    added += value + value;
+  }
+  text += added;
 }
 
 }  // namespace twinshade

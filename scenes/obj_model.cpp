@@ -19,7 +19,7 @@
 #include "base/file.h"
 #include "base/portable_math.h"
 #include "scenes/material_image.h"
-#include "scenes/mtl_textures.h"
+#include "scenes/mtl_lines.h"
 #include "scenes/obj_indices.h"
 #include "scenes/obj_lines.h"
 
@@ -152,11 +152,10 @@ class Reader {
           continue;
         }
         text += "mtllib " + library_name(libraries_.size()) + "\n";
-        std::set<std::string> ignored;
-        libraries_.push_back(with_plain_textures(with_line_feeds(without_byte_order_mark(read_file(file))), ignored));
+        std::set<std::string> notes;
+        libraries_.push_back(plain_materials(with_line_feeds(without_byte_order_mark(read_file(file))), file, notes));
         for (ObjLines in(libraries_.back()); in.next();) made_.insert(name_behind("newmtl", in.statement()));
-        for (const std::string& option : ignored)
-          model_.notes.push_back("material library " + name + ": the option " + option + " of its textures is ignored");
+        for (const std::string& note : notes) model_.notes.push_back("material library " + name + ": " + note);
       }
     }
     indices.check(path_);

@@ -1,10 +1,12 @@
-// Wavefront, MTL material format (Advanced Visualizer manual, appendix B, "Options for texture map statements").
-#include "scenes/mtl_textures.h"
+// Wavefront, MTL material format (Advanced Visualizer manual, appendix B: "Material color and illumination statements",
+// "Options for texture map statements").
+#include "scenes/mtl_lines.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <sstream>
+
+#include "scenes/obj_lines.h"
 
 namespace twinshade {
 namespace {
@@ -67,31 +69,60 @@ void take_arguments(std::string& text, const Option& option, std::set<std::strin
   }
 }
 
+// A texture's name behind its options.
+std::string texture_name(std::string rest, std::set<std::string>& ignored) {
+  for (bool more = true; more;) {
+    std::string after = rest;
+    const std::string word = lower_case(take_word(after));
+    const auto option = std::find_if(kOptions.begin(), kOptions.end(), [&](const Option& o) { return word == o.name; });
+    more = option != kOptions.end() && !after.empty();
+    if (!more) break;
+    rest = after;
+    take_arguments(rest, *option, ignored);
+  }
+  rest.erase(rest.find_last_not_of(kBlanks) + 1);
+  return rest;
+}
+
+// What materials have besides what is drawn of them; empty: nothing that would be seen.
+std::string undrawn(const std::string& keyword, const std::string& rest) {
+  std::string words = rest;
+  double value = 0;
+  const bool number = is_number(take_word(words), value);
+  if ((keyword == "d" && number && value < 1) || (keyword == "tr" && number && value > 0))
+    return "transparent materials are drawn opaque";
+  if (keyword == "map_d") return "cut-out materials are drawn opaque";
+  if (keyword == "ke" && number && value > 0) return "light that materials give (Ke) is ignored";
+  return "";
+}
+
 }  // namespace
 
-std::string with_plain_textures(const std::string& library, std::set<std::string>& ignored) {
-  std::istringstream lines(library);
+std::string plain_materials(const std::string& library, const std::string& path, std::set<std::string>& notes) {
+  std::set<std::string> ignored;
   std::string text;
-  for (std::string line; std::getline(lines, line); text += '\n') {
-    std::string rest = line.substr(std::min(line.find_first_not_of(kBlanks), line.size()));
-    const std::string keyword = take_word(rest);
-    if (std::find(kDrawn.begin(), kDrawn.end(), lower_case(keyword)) == kDrawn.end()) {
-      text += line;
-      continue;
+  for (ObjLines lines(library); lines.next(); text += '\n') {
+    std::string rest(lines.statement());
+    const std::string keyword = take_word(rest), lower = lower_case(keyword);
+    std::string words = rest;
+    const std::string first = lower_case(take_word(words));
+    if (lower == "newmtl") {
+      text += keyword + ' ' + rest;
+    } else if (lower == "kd" && (first == "xyz" || first == "spectral")) {
+      notes.insert("colours as " + first + " are ignored: their materials are plain");
+    } else if (lower == "kd") {
+      add_colour(text, rest, path, lines.number());
+    } else if (std::find(kDrawn.begin(), kDrawn.end(), lower) != kDrawn.end()) {
+      const std::string name = texture_name(rest, ignored);
+      if (name.empty())
+        notes.insert("line " + std::to_string(lines.number()) + ": " + keyword + " names no file");
+      else
+        text += keyword + ' ' + name;
+    } else if (const std::string note = undrawn(lower, rest); !note.empty()) {
+      notes.insert(note);
     }
-    for (bool more = true; more;) {
-      std::string after = rest;
-      const std::string word = lower_case(take_word(after));
-      const auto option =
-          std::find_if(kOptions.begin(), kOptions.end(), [&](const Option& o) { return word == o.name; });
-      more = option != kOptions.end() && !after.empty();
-      if (!more) break;
-      rest = after;
-      take_arguments(rest, *option, ignored);
-    }
-    rest.erase(rest.find_last_not_of(kBlanks) + 1);
-    text += rest.empty() ? line : keyword + ' ' + rest;
   }
+  for (const std::string& option : ignored) notes.insert("the option " + option + " of its textures is ignored");
   return text;
 }
 

@@ -55,12 +55,15 @@ std::string reference_of(const std::string& backend, const std::string& first) {
 // One line of the table: shader `technique` on b, held to the reference a.
 struct Row {
   std::string technique, light, map, a, b;
+  std::string output;   // that colours are of, where the shader has several
   std::string failure;  // why there is no comparison
   Comparison comparison;
   std::string hash_a, hash_b;
   Json first_difference;
   std::string description;
   std::vector<LintFinding> findings;  // where they differ: what in the shader may explain it
+
+  std::string name() const { return output.empty() ? technique : technique + ": " + output; }
 };
 
 class CompareRun {
@@ -76,7 +79,8 @@ class CompareRun {
 
   int run() {
     skipped_ = subject_.skipped;
-    for (const Shading& shader : load_shadings(verb_.shading, subject_)) compare(shader);
+    for (const Shading& shader : load_shadings(verb_.shading, subject_))
+      for (const FrameOutput& output : outputs_of(shader)) compare(shader, output);
     if (rows_.empty()) {
       std::string reasons;
       for (const auto& [technique, reason] : skipped_)
@@ -88,8 +92,19 @@ class CompareRun {
   }
 
  private:
+  // A frame holds one output: a shader with several is drawn for each. Techniques have one.
+  std::vector<FrameOutput> outputs_of(const Shading& shader) {
+    std::vector<FrameOutput> outputs;
+    if (!verb_.shading.shader.empty()) outputs = machines_.outputs(shader.source);
+    if (outputs.empty()) outputs.emplace_back();
+    several_outputs_ = outputs.size() > 1;
+    first_location_ = outputs.front().location;
+    return outputs;
+  }
+
   DrawOptions draw_options(bool capture) const {
     DrawOptions options;
+    options.output = output_at_.location;
     options.attributes = verb_.attributes;
     options.capture_attributes = capture;
     options.time_limit_seconds = verb_.time_limit_seconds;
@@ -103,8 +118,9 @@ class CompareRun {
     return frame;
   }
 
-  void compare(const Shading& shader) {
-    provenance_.add(shader);
+  void compare(const Shading& shader, const FrameOutput& output) {
+    output_at_ = output;
+    if (pictured()) provenance_.add(shader);
     const std::string& a = verb_.backends.front();
     const bool native = verb_.attributes == AttributeMode::native;
     const bool on_softpipe =
@@ -150,13 +166,12 @@ class CompareRun {
 
   void compare_with(const Shading& shader, const std::string& a, const Frame& frame_a, const std::string& b,
                     const Frame& frame_b, CompareScope scope) {
-    Row row;
-    row.technique = shader.technique, row.light = shader.light, row.map = shader.map, row.a = a, row.b = b;
+    Row row = row_of(shader, a, b);
     row.comparison = compare_frames(frame_a, frame_b, scope);
     row.hash_a = frame_hash(frame_a), row.hash_b = frame_hash(frame_b);
     write_pictures(shader, b, frame_b);
     if (!row.comparison.equal()) {
-      if (!verb_.folder.empty())
+      if (!verb_.folder.empty() && pictured())
         write_difference_picture(output_.claimed(difference_name(picture_of(shader), a, b)), frame_a,
                                  scope == CompareScope::all ? frame_b : with_colors_where_covered(frame_a, frame_b));
       explain(shader, row, frame_a, frame_b, scope);
@@ -174,7 +189,7 @@ class CompareRun {
 
   // An earlier run's would stay beside frames that are equal now.
   void remove_difference_picture(const Shading& shader, const std::string& a, const std::string& b) const {
-    if (verb_.folder.empty()) return;
+    if (verb_.folder.empty() || !pictured()) return;
     const std::string path = output_.claimed(difference_name(picture_of(shader), a, b));
     std::error_code code;
     std::filesystem::remove(path, code);
@@ -202,12 +217,21 @@ class CompareRun {
     row.comparison.attributes_differ = again.attributes_differ;
     row.findings = lint(shader.source);
     row.first_difference = difference_json(again.first, *a);
-    row.description = describe_mismatch(row.technique, row.a, row.b, again, *a) + describe_findings(row.findings);
+    row.description = describe_mismatch(row.name(), row.a, row.b, again, *a) + describe_findings(row.findings);
   }
 
-  void fail(const Shading& shader, const std::string& a, const std::string& b, const std::string& reason) {
+  Row row_of(const Shading& shader, const std::string& a, const std::string& b) const {
     Row row;
     row.technique = shader.technique, row.light = shader.light, row.map = shader.map, row.a = a, row.b = b;
+    if (several_outputs_) row.output = output_at_.name;
+    return row;
+  }
+
+  // Pictures are of the first output.
+  bool pictured() const { return !several_outputs_ || output_at_.location == first_location_; }
+
+  void fail(const Shading& shader, const std::string& a, const std::string& b, const std::string& reason) {
+    Row row = row_of(shader, a, b);
     row.failure = reason;
     rows_.push_back(std::move(row));
   }
@@ -220,7 +244,7 @@ class CompareRun {
   }
 
   void write_pictures(const Shading& shader, const std::string& backend, const Frame& frame) {
-    if (verb_.folder.empty() || backend == "softpipe") return;
+    if (verb_.folder.empty() || backend == "softpipe" || !pictured()) return;
     make_folder(verb_.folder);
     write_picture(output_.claimed(frame_name(picture_of(shader), backend)), frame, verb_.picture);
   }
@@ -269,7 +293,7 @@ class CompareRun {
     std::string text = table.text();
     for (const auto& [technique, reason] : skipped_) text += fmt::format("skipped {}: {}\n", technique, reason);
     for (const Row& row : rows_)
-      if (!row.failure.empty()) text += fmt::format("failed {} on {}: {}\n", row.technique, row.b, row.failure);
+      if (!row.failure.empty()) text += fmt::format("failed {} on {}: {}\n", row.name(), row.b, row.failure);
     for (const Row& row : rows_)
       if (is_mismatch(row)) text += row.description;
     output_.text(text);
@@ -280,7 +304,7 @@ class CompareRun {
   }
 
   std::vector<std::string> cells(const Row& row) const {
-    std::vector<std::string> cells{row.technique, row.light.empty() ? "-" : row.light, row.map.empty() ? "-" : row.map,
+    std::vector<std::string> cells{row.name(), row.light.empty() ? "-" : row.light, row.map.empty() ? "-" : row.map,
                                    row.a, row.b};
     const Comparison& c = row.comparison;
     if (!row.failure.empty()) {
@@ -301,6 +325,7 @@ class CompareRun {
               {"map", row.map.empty() ? Json(nullptr) : Json(row.map)},
               {"a", row.a},
               {"b", row.b},
+              {"output", row.output.empty() ? Json(nullptr) : Json(row.output)},
               {"attributes", attribute_mode_name(verb_.attributes)}};
     if (!row.failure.empty()) {
       json["error"] = row.failure;
@@ -328,6 +353,9 @@ class CompareRun {
   Provenance provenance_;
   const Subject subject_;
   Machines machines_;
+  FrameOutput output_at_;  // that is drawn
+  bool several_outputs_ = false;
+  std::uint32_t first_location_ = 0;
   std::vector<Row> rows_;
   std::vector<std::pair<std::string, std::string>> skipped_;
 };
@@ -360,7 +388,10 @@ int CompareVerb::run() const {
   Output output(common, {}, folder);
   require_backends(backends);
   if (backends.size() < 2) throw UserError("--on: name at least two backends to compare, as cpu,egl");
-  if (backends.front() == "softpipe") throw UserError("--on: softpipe shades what the CPU covered; name cpu first");
+  const bool only_softpipe = std::all_of(backends.begin() + 1, backends.end(), [](auto& b) { return b == "softpipe"; });
+  if (backends.front() == "softpipe" || (backends.front() != "cpu" && only_softpipe))
+    throw UserError(
+        "--on: softpipe shades what the CPU covered and is compared with it; name cpu first, as cpu,softpipe");
   if (cpu.number == Number::float64)
     throw UserError("--number float64: frames in double have other bits by design; twinshade render draws them");
   if (!folder.empty()) output.claim(picture_names());

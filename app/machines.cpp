@@ -33,8 +33,9 @@ std::unique_ptr<Renderer> make_gl(const std::string& backend, bool host_fma) {
 }
 
 Frame shade_gl(const Bundle& bundle, const ShaderSource& source, const Frame& cpu_frame, bool host_fma,
-               double time_limit_seconds) {
-  return shade_on_softpipe(bundle, source, cpu_frame, gl_environment(host_fma), time_limit_seconds);
+               const DrawOptions& options) {
+  return shade_on_softpipe(bundle, source, cpu_frame, gl_environment(host_fma), options.time_limit_seconds,
+                           options.output);
 }
 #else
 [[noreturn]] void refuse(const std::string& backend) {
@@ -42,7 +43,7 @@ Frame shade_gl(const Bundle& bundle, const ShaderSource& source, const Frame& cp
 }
 
 std::unique_ptr<Renderer> make_gl(const std::string& backend, bool) { refuse(backend); }
-Frame shade_gl(const Bundle&, const ShaderSource&, const Frame&, bool, double) { refuse("softpipe"); }
+Frame shade_gl(const Bundle&, const ShaderSource&, const Frame&, bool, const DrawOptions&) { refuse("softpipe"); }
 #endif
 
 }  // namespace
@@ -69,7 +70,7 @@ Frame Machines::draw(const std::string& backend, const Bundle& bundle, const Sha
   options.number = number();
   if (backend == "softpipe") {
     TWINSHADE_CHECK_EQ(cpu_frame != nullptr, true);
-    return shade_gl(bundle, source, *cpu_frame, host_fma_, options.time_limit_seconds);
+    return shade_gl(bundle, source, *cpu_frame, host_fma_, options);
   }
   require_frame_memory(bundle.width, bundle.height, backend);
   try {
@@ -78,6 +79,19 @@ Frame Machines::draw(const std::string& backend, const Bundle& bundle, const Sha
     const std::string whole = error.variable.substr(0, error.variable.find_first_of(".["));  // of "light.colour"
     throw UserError(SourceLines(source).declaration(whole).text() + ": " + error.reason);
   }
+}
+
+std::vector<FrameOutput> Machines::outputs(const ShaderSource& source) const {
+  const ShaderModule& module = load_module(source, number(), cpu_.isa);
+  std::vector<FrameOutput> list;
+  for (std::uint32_t i = 0; i < module.output_count; ++i) {
+    const ShaderVariable& output = module.outputs[i];
+    for (std::uint32_t element = 0; element < std::max(1u, output.array_length); ++element)
+      list.push_back({output.name + (output.array_length > 0 ? "[" + std::to_string(element) + "]" : std::string()),
+                      std::uint32_t(std::max(0, output.location)) + element});
+  }
+  std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.location < b.location; });
+  return list;
 }
 
 bool Machines::uses_derivatives(const ShaderSource& source) const {

@@ -16,6 +16,12 @@ const std::vector<std::string>& backend_names();
 // UserError with the nearest names where one is unknown or named twice.
 void require_backends(const std::vector<std::string>& names);
 
+// What a frame's colour may be (DrawOptions::output).
+struct FrameOutput {
+  std::string name;  // "color", "targets[1]"
+  std::uint32_t location = 0;
+};
+
 class Machines {
  public:
   // host_fma: false runs OpenGL on the processor's capabilities without fused multiply-add.
@@ -25,6 +31,7 @@ class Machines {
   Frame draw(const std::string& backend, const Bundle& bundle, const ShaderSource& source, DrawOptions options,
              const Frame* cpu_frame = nullptr);
   bool uses_derivatives(const ShaderSource& source) const;
+  std::vector<FrameOutput> outputs(const ShaderSource& source) const;  // by location
 
  private:
   Number number() const;

@@ -19,19 +19,31 @@ std::string component_name(const Difference& d, const Frame& frame_a) {
 
 std::string id_text(std::uint32_t id) { return id == kNoPrimitive ? "none" : std::to_string(id); }
 
+// Floats in hexadecimal, integers' bits.
+std::string hex_text(Scalar scalar, std::uint32_t bits) {
+  return scalar == Scalar::f32 ? hex_float(std::bit_cast<float>(bits)) : fmt::format("0x{:08x}", bits);
+}
+
+std::string number_text(Scalar scalar, std::uint32_t bits) {
+  return scalar == Scalar::f32 ? fmt::format("{} ({})", std::bit_cast<float>(bits), hex_text(scalar, bits))
+                               : fmt::format("{:.0f} ({})", value_of(scalar, bits), hex_text(scalar, bits));
+}
+
 std::string value_text(const Difference& d, std::uint32_t bits) {
   if (d.layer == "coverage") return bits ? "covered" : "not covered";
   if (d.layer == "id") return "triangle " + id_text(bits);
-  const auto value = std::bit_cast<float>(bits);
-  return fmt::format("{} ({})", value, hex_float(value));
+  return number_text(d.scalar, bits);
 }
 
-std::string ulp_text(std::uint64_t ulp) { return ulp == UINT64_MAX ? "NaN on one side" : fmt::format("{} ULP", ulp); }
+std::string distance_text(const Difference& d) {
+  if (d.scalar != Scalar::f32) return fmt::format("{} apart", d.ulp);
+  return d.ulp == UINT64_MAX ? "NaN on one side" : fmt::format("{} ULP", d.ulp);
+}
 
 std::string values_text(const Difference& d, const std::string& a, const std::string& b, const Frame& frame_a) {
   std::string text = fmt::format("{}: {} {}, {} {}", component_name(d, frame_a), a, value_text(d, d.a_bits), b,
                                  value_text(d, d.b_bits));
-  if (!is_discrete(d)) text += ": " + ulp_text(d.ulp);
+  if (!is_discrete(d)) text += ": " + distance_text(d);
   return text;
 }
 
@@ -66,8 +78,8 @@ std::string describe_mismatch(const std::string& technique, const std::string& a
   text += "  " + values_text(first, a, b, frame_a) + '\n';
   if (!first.inputs.empty()) {
     text += "  inputs of the shader there:\n";
-    for (const auto& [name, value] : first.inputs)
-      text += fmt::format("    {} = {} ({})\n", name, value, hex_float(value));
+    for (const auto& [name, scalar, bits] : first.inputs)
+      text += fmt::format("    {} = {}\n", name, number_text(scalar, bits));
   }
   if (comparison.worst.size() > 1) {
     text += fmt::format("  worst of layer {}:\n", first.layer);
@@ -75,7 +87,8 @@ std::string describe_mismatch(const std::string& technique, const std::string& a
       text += fmt::format("    ({}, {}) {}\n", d.x, d.y, values_text(d, a, b, frame_a));
   }
   if (const std::string histogram = histogram_text(comparison); !histogram.empty())
-    text += "  colour components by ULP: " + histogram + '\n';
+    text += fmt::format("  colour components by {}: {}\n", frame_a.color_scalar == Scalar::f32 ? "ULP" : "distance",
+                        histogram);
   return text;
 }
 
@@ -90,13 +103,14 @@ Json difference_json(const std::optional<Difference>& difference, const Frame& f
   json["a"] = float_json(d.a);
   json["b"] = float_json(d.b);
   if (!is_discrete(d)) {
-    json["a_hex"] = hex_float(std::bit_cast<float>(d.a_bits));
-    json["b_hex"] = hex_float(std::bit_cast<float>(d.b_bits));
+    json["a_hex"] = hex_text(d.scalar, d.a_bits);
+    json["b_hex"] = hex_text(d.scalar, d.b_bits);
     json["ulp"] = d.ulp;
   }
   json["inputs"] = Json::array();
-  for (const auto& [name, value] : d.inputs)
-    json["inputs"].push_back({{"name", name}, {"value", float_json(double(value))}, {"hex", hex_float(value)}});
+  for (const auto& [name, scalar, bits] : d.inputs)
+    json["inputs"].push_back(
+        {{"name", name}, {"value", float_json(value_of(scalar, bits))}, {"hex", hex_text(scalar, bits)}});
   return json;
 }
 

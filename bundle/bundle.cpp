@@ -57,22 +57,27 @@ void validate(const Bundle& bundle, const std::string& origin) {
       fail("vertex index " + std::to_string(index) + " is out of range: there are " + std::to_string(vertices) +
            " vertices");
   for (const Attribute& attribute : bundle.attributes) {
-    if (attribute.components < 1 || attribute.components > 4 || attribute.scalar == Scalar::boolean)
+    if (attribute.components < 1 || attribute.components > 4 || attribute.scalar >= Scalar::boolean)
       fail("attribute " + attribute.name + " has an unsupported type");
     if (attribute.values.size() != vertices * attribute.components)
       fail("attribute " + attribute.name + " has " + std::to_string(attribute.values.size()) + " values, not " +
            std::to_string(vertices * attribute.components));
   }
   for (const Texture& texture : bundle.textures) {
+    if (texture.kind > TextureKind::cube || texture.filter > Filter::linear || texture.wrap > Wrap::repeat)
+      fail("texture " + texture.name + " has a kind, filter or wrapping that there is not");
     const std::uint32_t layers = texture.kind == TextureKind::two_d ? 1 : texture.kind == TextureKind::cube ? 6 : 0;
     if (texture.width == 0 || texture.height == 0 || texture.layers == 0 || (layers != 0 && texture.layers != layers) ||
         (texture.kind == TextureKind::cube && texture.width != texture.height))
       fail("texture " + texture.name + " has an impossible size");
-    if (texture.texels.size() != std::size_t(texture.width) * texture.height * texture.layers * 4)
+    const std::size_t rows = texture.texels.size() / 4 / texture.width;  // whole: no product that could overflow
+    if (texture.texels.size() % (std::size_t{texture.width} * 4) != 0 || rows % texture.height != 0 ||
+        rows / texture.height != texture.layers)
       fail("texture " + texture.name + " does not hold width * height * layers RGBA texels");
   }
   for (const Uniform& uniform : bundle.uniforms) {
-    if (uniform.columns < 1 || uniform.columns > 4 || uniform.rows < 1 || uniform.rows > 4)
+    if (uniform.columns < 1 || uniform.columns > 4 || uniform.rows < 1 || uniform.rows > 4 ||
+        uniform.scalar > Scalar::boolean)
       fail("uniform " + uniform.name + " has an impossible type");
     const std::size_t elements = uniform.array_length == 0 ? 1 : uniform.array_length;
     if (uniform.values.size() != elements * uniform.columns * uniform.rows)

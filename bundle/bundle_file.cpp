@@ -1,5 +1,5 @@
-// The bundle as bytes: "TWSBNDL" + version, then each field in the order of struct Bundle, little-endian, lengths as u64;
-// the SHA-256 of all before it, as 64 hex digits, ends the file.
+// The bundle as bytes: "TWSBNDL" + version, then each field in the order of struct Bundle, little-endian, lengths as
+// u64; the SHA-256 of all before it, as 64 hex digits, ends the file.
 #include <bit>
 #include <cstring>
 #include <fstream>
@@ -23,10 +23,8 @@ class Writer {
   std::string bytes;
 
   template <class T>
-    requires std::is_arithmetic_v<T> || std::is_enum_v<T>
-  void operator()(const T& value) {
-    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-  }
+  requires std::is_arithmetic_v<T> || std::is_enum_v<T>
+  void operator()(const T& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); }
   void operator()(const std::string& text) {
     length(text.size());
     bytes += text;
@@ -49,9 +47,13 @@ class Reader {
   Reader(std::string_view bytes, const std::string& origin) : rest_(bytes), origin_(origin) {}
 
   template <class T>
-    requires std::is_arithmetic_v<T> || std::is_enum_v<T>
-  void operator()(T& value) {
-    copy(&value, sizeof value);
+  requires std::is_arithmetic_v<T> || std::is_enum_v<T>
+  void operator()(T& value) { copy(&value, sizeof value); }
+  void operator()(bool& value) {
+    std::uint8_t byte = 0;
+    copy(&byte, 1);
+    if (byte > 1) throw UserError(origin_ + ": damaged bundle: a truth value is " + std::to_string(byte));
+    value = byte == 1;
   }
   void operator()(std::string& text) {
     text.resize(length(1));

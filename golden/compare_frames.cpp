@@ -16,11 +16,6 @@ constexpr std::uint64_t kNoUlp = UINT64_MAX;
 enum Layer : std::size_t { kCoverage, kId, kDepth, kAttributes, kColor, kLayers };
 constexpr std::array<const char*, kLayers> kLayerNames{"coverage", "id", "depth", "attributes", "color"};
 
-// NaN is one class: payloads and signs of NaNs are not compared.
-bool same(float a, float b) {
-  return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b) || (std::isnan(a) && std::isnan(b));
-}
-
 bool is_denormal(float v) { return std::fpclassify(v) == FP_SUBNORMAL; }
 
 // One machine flushed what the other kept.
@@ -53,13 +48,21 @@ Difference discrete_difference(Layer layer, std::uint32_t x, std::uint32_t y, st
   return d;
 }
 
-Difference float_difference(Layer layer, std::uint32_t x, std::uint32_t y, std::uint32_t component, float a, float b) {
+std::uint64_t distance(Scalar scalar, float a, float b) {
+  if (scalar == Scalar::f32) return ulp_distance(a, b);
+  const double x = value_of(scalar, std::bit_cast<std::uint32_t>(a)),
+               y = value_of(scalar, std::bit_cast<std::uint32_t>(b));
+  return std::uint64_t(std::abs(x - y));
+}
+
+Difference value_difference(Layer layer, std::uint32_t x, std::uint32_t y, std::uint32_t component, Scalar scalar,
+                            float a, float b) {
   Difference d;
   d.layer = kLayerNames[layer];
-  d.x = x, d.y = y, d.component = component;
-  d.a = double(a), d.b = double(b);
+  d.x = x, d.y = y, d.component = component, d.scalar = scalar;
   d.a_bits = std::bit_cast<std::uint32_t>(a), d.b_bits = std::bit_cast<std::uint32_t>(b);
-  d.ulp = ulp_distance(a, b);
+  d.a = value_of(scalar, d.a_bits), d.b = value_of(scalar, d.b_bits);
+  d.ulp = distance(scalar, a, b);
   return d;
 }
 
@@ -106,7 +109,7 @@ class Walk {
       found(discrete_difference(kId, x_, y_, a_.primitive_id[pixel_], b_.primitive_id[pixel_]));
     } else {
       // Only the same primitive at the same pixel has depths, attributes and colours that can be held to each other.
-      if (compare_value(kDepth, 0, a_.depth[pixel_], b_.depth[pixel_])) ++result_.depth_differs;
+      if (compare_value(kDepth, 0, Scalar::f32, a_.depth[pixel_], b_.depth[pixel_])) ++result_.depth_differs;
       if (captured_ && in_a) compare_attributes();
       compare_color(in_a);
     }
@@ -122,27 +125,28 @@ class Walk {
     layers_[layer].add(difference);
   }
 
-  bool compare_value(Layer layer, std::uint32_t component, float a, float b) {
-    if (same(a, b)) return false;
+  bool compare_value(Layer layer, std::uint32_t component, Scalar scalar, float a, float b) {
+    if (same_value(scalar, a, b)) return false;
     differs_ = true;
-    flushed_only_ = flushed_only_ && only_flushed(a, b);
-    layers_[layer].add(float_difference(layer, x_, y_, component, a, b));
+    flushed_only_ = flushed_only_ && scalar == Scalar::f32 && only_flushed(a, b);
+    layers_[layer].add(value_difference(layer, x_, y_, component, scalar, a, b));
     return true;
   }
 
   void compare_attributes() {
     bool any = false;
     for (std::uint32_t c = 0; c < a_.attribute_names.size(); ++c)
-      any |= compare_value(kAttributes, c, a_.attributes[c * pixels_ + pixel_], b_.attributes[c * pixels_ + pixel_]);
+      any |= compare_value(kAttributes, c, a_.attribute_scalars[c], a_.attributes[c * pixels_ + pixel_],
+                           b_.attributes[c * pixels_ + pixel_]);
     if (any) ++result_.attributes_differ;
   }
 
   void compare_color(bool covered) {
     for (std::uint32_t c = 0; c < 4; ++c) {
       const float a = a_.color[pixel_ * 4 + c], b = b_.color[pixel_ * 4 + c];
-      compare_value(kColor, c, a, b);
+      compare_value(kColor, c, a_.color_scalar, a, b);
       if (!covered) continue;
-      const std::uint64_t ulp = ulp_distance(a, b);
+      const std::uint64_t ulp = distance(a_.color_scalar, a, b);
       ++result_.ulp_histogram[histogram_bin(ulp)];
       result_.max_ulp = std::max(result_.max_ulp, ulp);
     }
@@ -154,7 +158,8 @@ class Walk {
     const Frame& seen = a_.coverage[pixel] ? a_ : b_;
     if (seen.attribute_names != a_.attribute_names) return;
     for (std::size_t c = 0; c < seen.attribute_names.size(); ++c)
-      difference.inputs.emplace_back(seen.attribute_names[c], seen.attributes[c * pixels_ + pixel]);
+      difference.inputs.push_back({seen.attribute_names[c], seen.attribute_scalars[c],
+                                   std::bit_cast<std::uint32_t>(seen.attributes[c * pixels_ + pixel])});
   }
 
   const Frame& a_;
@@ -172,6 +177,16 @@ class Walk {
 
 }  // namespace
 
+double value_of(Scalar scalar, std::uint32_t bits) {
+  if (scalar == Scalar::f32) return double(std::bit_cast<float>(bits));
+  return scalar == Scalar::i32 ? double(std::int32_t(bits)) : double(bits);
+}
+
+bool same_value(Scalar scalar, float a, float b) {
+  return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b) ||
+         (scalar == Scalar::f32 && std::isnan(a) && std::isnan(b));
+}
+
 std::uint64_t ulp_distance(float a, float b) {
   if (std::isnan(a) || std::isnan(b)) return std::isnan(a) && std::isnan(b) ? 0 : kNoUlp;
   // Sign and magnitude to a signed line on which neighbours are 1 apart and both zeros are 0.
@@ -187,6 +202,7 @@ std::uint64_t ulp_distance(float a, float b) {
 Comparison compare_frames(const Frame& a, const Frame& b, CompareScope scope) {
   TWINSHADE_CHECK_EQ(a.width, b.width);
   TWINSHADE_CHECK_EQ(a.height, b.height);
+  TWINSHADE_CHECK_EQ(int(a.color_scalar), int(b.color_scalar));
   for (const Frame* frame : {&a, &b}) {
     const std::size_t pixels = std::size_t(frame->width) * frame->height;
     TWINSHADE_CHECK_EQ(frame->coverage.size(), pixels);
@@ -194,6 +210,7 @@ Comparison compare_frames(const Frame& a, const Frame& b, CompareScope scope) {
     TWINSHADE_CHECK_EQ(frame->depth.size(), pixels);
     TWINSHADE_CHECK_EQ(frame->color.size(), pixels * 4);
     TWINSHADE_CHECK_EQ(frame->attributes.size(), pixels * frame->attribute_names.size());
+    TWINSHADE_CHECK_EQ(frame->attribute_scalars.size(), frame->attribute_names.size());
   }
   return Walk(a, b, scope).run();
 }

@@ -15,10 +15,17 @@ struct Difference {
   std::string layer;           // "coverage", "id", "depth", "attributes", "color"
   std::uint32_t x = 0, y = 0;  // pixel, y upwards
   std::uint32_t component = 0;
-  double a = 0, b = 0;  // values, exactly
+  Scalar scalar = Scalar::f32;  // of the values
+  double a = 0, b = 0;          // values, exactly
   std::uint32_t a_bits = 0, b_bits = 0;
-  std::uint64_t ulp = 0;  // distance in representable floats; UINT64_MAX where one is NaN or for ids and coverage
-  std::vector<std::pair<std::string, float>> inputs;  // the shader's inputs at the pixel, where captured
+  // Distance in representable floats, or between integers; UINT64_MAX where one is NaN or for ids and coverage.
+  std::uint64_t ulp = 0;
+  struct Input {
+    std::string name;
+    Scalar scalar;
+    std::uint32_t bits;
+  };
+  std::vector<Input> inputs;  // the shader's inputs at the pixel, where captured
 };
 
 struct Comparison {
@@ -27,7 +34,7 @@ struct Comparison {
   std::uint64_t pixels_differ = 0;  // pixels in which any of the compared bits differ
   std::uint64_t denormal_only =
       0;  // of those, pixels where every difference has a denormal on one side and zero on the other
-  std::uint64_t max_ulp = 0;  // of colour, over pixels covered with the same id in both; NaN is one class
+  std::uint64_t max_ulp = 0;  // of colour, over pixels covered with the same id in both; NaN of floats is one class
   std::vector<std::uint64_t> ulp_histogram;  // [0]: equal values, [k]: distance in [2^(k-1), 2^k)
   std::optional<Difference> first;           // of the first layer that differs, in reading order from the top left
   std::vector<Difference> worst;             // up to 8 of that layer, largest ULP first
@@ -36,6 +43,13 @@ struct Comparison {
 
 enum class CompareScope { all, shaded_by_a };  // shaded_by_a: colour only, where a covers (softpipe)
 Comparison compare_frames(const Frame& a, const Frame& b, CompareScope scope = CompareScope::all);
+
+// A value's bits as a number, exactly.
+double value_of(Scalar scalar, std::uint32_t bits);
+
+// Whether two values are one to a comparison: their bits are, or both are NaNs of floats, whose payload is the
+// processor's choice.
+bool same_value(Scalar scalar, float a, float b);
 
 // Distance in ULP; +0 and -0 are 0 apart for this count but are different bits. UINT64_MAX if exactly one is NaN.
 std::uint64_t ulp_distance(float a, float b);

@@ -59,29 +59,22 @@ Rgb heat(std::uint64_t ulp) {
   return mixed(kRamp[segment], kRamp[segment + 1], place - segment);
 }
 
-bool bits_differ(const float* a, const float* b, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const bool both_nan = std::isnan(a[i]) && std::isnan(b[i]);
-    if (!both_nan && (a[i] != b[i] || std::signbit(a[i]) != std::signbit(b[i]))) return true;
-  }
-  return false;
-}
-
 Rgb difference_color(const Frame& a, const Frame& b, std::size_t pixel) {
   if (a.coverage[pixel] != b.coverage[pixel]) return {255, 0, 255};
   if (a.primitive_id[pixel] != b.primitive_id[pixel]) return {255, 140, 0};
   const float* color_a = &a.color[pixel * 4];
   const float* color_b = &b.color[pixel * 4];
-  if (bits_differ(color_a, color_b, 4)) {
-    std::uint64_t worst = 1;  // zeros of different sign are 0 ULP apart and yet differ
-    for (int c = 0; c < 4; ++c) worst = std::max(worst, ulp_distance(color_a[c], color_b[c]));
-    return heat(worst);
-  }
-  if (bits_differ(&a.depth[pixel], &b.depth[pixel], 1)) return {0, 220, 220};
+  std::uint64_t worst = 0;
+  for (int c = 0; c < 4; ++c)  // zeros of different sign are 0 ULP apart and yet differ
+    if (!same_value(a.color_scalar, color_a[c], color_b[c]))
+      worst = std::max({worst, std::uint64_t{1}, ulp_distance(color_a[c], color_b[c])});
+  if (worst > 0) return heat(worst);
+  if (!same_value(Scalar::f32, a.depth[pixel], b.depth[pixel])) return {0, 220, 220};
   const std::size_t pixels = std::size_t(a.width) * a.height;
   if (a.coverage[pixel] && a.attribute_names == b.attribute_names)
     for (std::size_t c = 0; c < a.attribute_names.size(); ++c)
-      if (bits_differ(&a.attributes[c * pixels + pixel], &b.attributes[c * pixels + pixel], 1)) return {0, 220, 220};
+      if (!same_value(a.attribute_scalars[c], a.attributes[c * pixels + pixel], b.attributes[c * pixels + pixel]))
+        return {0, 220, 220};
   const double luminance = 0.2126 * color_a[0] + 0.7152 * color_a[1] + 0.0722 * color_a[2];
   const auto grey = static_cast<unsigned char>(display_value(luminance, 0, Tonemap::reinhard) / 3);
   return {grey, grey, grey};

@@ -23,7 +23,8 @@ inline constexpr std::uint32_t kNoPrimitive = 0xffffffffu;
 // Pixel (x, y) is at index y * width + x, y upwards as in OpenGL (row 0 at the bottom).
 struct Frame {
   std::uint32_t width = 0, height = 0;
-  LineVector<float> color;                 // RGBA32F of the first output; 0 where nothing was drawn
+  LineVector<float> color;                 // RGBA32F of one output; 0 where nothing was drawn. Integers by bit pattern
+  Scalar color_scalar = Scalar::f32;       // what they are
   LineVector<float> depth;                 // [0, 1]; 1 where nothing was drawn
   // Empty without DrawOptions::visibility.
   LineVector<std::uint32_t> primitive_id;  // kNoPrimitive where nothing was drawn
@@ -33,6 +34,7 @@ struct Frame {
   // meaningful where coverage is 1. Planar: component c of pixel p at [c * width * height + p]; integers by bit pattern.
   std::vector<float> attributes;
   std::vector<std::string> attribute_names;  // one per component: "v_uv.x", "v_uv.y" ...
+  std::vector<Scalar> attribute_scalars;     // one per component
 
   // Double evaluation (cpu with Number::float64): as color, unrounded.
   std::vector<double> color64;
@@ -48,6 +50,7 @@ struct Frame {
 struct DrawOptions {
   AttributeMode attributes = AttributeMode::exact;
   bool capture_attributes = false;
+  std::uint32_t output = 0;    // location of what the frame's colour is; where nothing is at 0, the output declared first
   int repeat = 1;              // draw this many times (benchmark); milliseconds then holds the median of each stage
   int warmup = 0;
   // cpu only
@@ -75,7 +78,7 @@ class Renderer {
   virtual Frame draw(const Bundle& bundle, const ShaderSource& source, const DrawOptions& options) = 0;
 };
 
-// SHA-256 over size, coverage, ids, depth bits and colour bits, NaNs made one (0x7fc00000).
+// SHA-256 over size, coverage, ids, depth bits and colour bits, NaNs of floats made one (0x7fc00000).
 std::string frame_hash(const Frame& frame);
 
 }  // namespace twinshade

@@ -5,8 +5,8 @@
 #include "cpu_shaders/rewrite/make_exact.h"
 #include "cpu_shaders/source/output_locations.h"
 #include "cpu_shaders/source/preprocess.h"
-#include "raster/gl/extended_products.h"
 #include "raster/gl/author_names.h"
+#include "raster/gl/extended_products.h"
 #include "raster/row_grid.h"
 
 namespace twinshade::gl {
@@ -276,26 +276,48 @@ std::string ShaderGenerator::fragment(const std::string& outputs, const std::str
   return text + "}\n";
 }
 
-// The output of location 0, else the first, as the frame keeps it: missing components 0, integers by bit pattern.
-std::string ShaderGenerator::color_expression() const {
-  if (shader_.outputs.empty()) return "vec4(0.0)";
-  const Output* first = &shader_.outputs.front();
+// The output at a location, or the first.
+ShaderGenerator::ChosenOutput ShaderGenerator::chosen_output() const {
+  if (shader_.outputs.empty()) return {};
+  ChosenOutput chosen{&shader_.outputs.front(), 0};
   const auto count = [](const Output& output) { return std::max(1, int(output.array_length)); };
+  const auto consider = [&](const Output& output, int first) {
+    if (output_ >= first && output_ < first + count(output)) chosen = {&output, std::uint32_t(output_ - first)};
+  };
   OutputLocations locations;
   for (const Output& output : shader_.outputs) {
-    if (output.location == 0) first = &output;
-    if (output.location >= 0) locations.take(output.location, count(output));
+    if (output.location < 0) continue;
+    locations.take(output.location, count(output));
+    consider(output, output.location);
   }
   for (const Output& output : shader_.outputs)
-    if (output.location < 0 && locations.take_lowest(count(output)) == 0) first = &output;
+    if (output.location < 0) consider(output, locations.take_lowest(count(output)));
+  return chosen;
+}
+
+Scalar ShaderGenerator::color_scalar() const {
+  const ChosenOutput chosen = chosen_output();
+  return chosen.output != nullptr ? chosen.output->scalar : Scalar::f32;
+}
+
+std::vector<Scalar> ShaderGenerator::component_scalars() const {
+  std::vector<Scalar> scalars;
+  for (const InputLeaf& leaf : leaves_) scalars.insert(scalars.end(), leaf.components, leaf.scalar);
+  return scalars;
+}
+
+// The output as the frame keeps it: missing components 0, integers by bit pattern.
+std::string ShaderGenerator::color_expression() const {
+  const auto [output, element] = chosen_output();
+  if (output == nullptr) return "vec4(0.0)";
   std::string text = "vec4(";
   for (std::uint32_t c = 0; c < 4; ++c) {
     std::string value = "0.0";
-    if (c < first->components) {
-      value = first->name + (first->array_length != 0 ? "[0]" : "") +
-              (first->components > 1 ? std::string(".") + kComponent[c] : "");
-      if (first->scalar == Scalar::i32) value = "intBitsToFloat(" + value + ")";
-      if (first->scalar == Scalar::u32) value = "uintBitsToFloat(" + value + ")";
+    if (c < output->components) {
+      value = output->name + (output->array_length != 0 ? "[" + number(element) + "]" : "") +
+              (output->components > 1 ? std::string(".") + kComponent[c] : "");
+      if (output->scalar == Scalar::i32) value = "intBitsToFloat(" + value + ")";
+      if (output->scalar == Scalar::u32) value = "uintBitsToFloat(" + value + ")";
     }
     text += (c == 0 ? "" : ", ") + value;
   }

@@ -47,6 +47,11 @@ class ShaderGenerator {
   std::vector<std::string> result_names() const;  // of what result() captures: kKept, then outputs, then gl_FragDepth
   Geometry geometry() const;
 
+  // What the frame's colour is (DrawOptions::output), and the type of its components.
+  void choose_output(std::uint32_t location) { output_ = int(location); }
+  Scalar color_scalar() const;
+  std::vector<Scalar> component_scalars() const;  // as Frame::attribute_scalars
+
   ProgramText frame() const;                       // colour and primitive id
   ProgramText timed() const;                       // colour only
   ProgramText prepass() const;                     // depth only
@@ -59,6 +64,11 @@ class ShaderGenerator {
   std::string covered_pixel() const;
   std::string row_pixel() const;
   std::string fill() const;
+  struct ChosenOutput {
+    const Output* output = nullptr;  // none: the shader has none
+    std::uint32_t element = 0;       // of an array
+  };
+  ChosenOutput chosen_output() const;
   std::string color_expression() const;
   std::string vertex() const;
   bool needs_triangle() const;
@@ -74,6 +84,7 @@ class ShaderGenerator {
   Supply supply_;
   int glsl_version_;
   bool written_out_;
+  int output_ = 0;  // location
   std::vector<InputLeaf> leaves_;
 };
 

@@ -26,8 +26,9 @@ class GlRenderer final : public Renderer {
     const bool exact = options.attributes == AttributeMode::exact, written_out = exact && session_.writes_out();
     const ShaderSource source = written_out ? make_exact(author, ExactScope::written_out).source : author;
     const FragmentShader shader = rewrite_fragment_shader(source, exact ? InputStyle::globals : InputStyle::varyings);
-    const ShaderGenerator generator(source, shader, supplied_inputs(bundle.attributes, source, shader.inputs),
-                                    exact ? Supply::exact : Supply::varyings, 450, written_out);
+    ShaderGenerator generator(source, shader, supplied_inputs(bundle.attributes, source, shader.inputs),
+                              exact ? Supply::exact : Supply::varyings, 450, written_out);
+    generator.choose_output(options.output);
     DrawRequest request = basic_request(bundle, source, generator, options.time_limit_seconds);
     const std::vector<std::string> names = generator.component_names();
     if (options.capture_attributes) {
@@ -48,8 +49,10 @@ class GlRenderer final : public Renderer {
     }
 
     Frame frame = exchange(bundle, source, request, nullptr);
+    frame.color_scalar = generator.color_scalar();
     if (options.capture_attributes) {
       frame.attribute_names = names;
+      frame.attribute_scalars = generator.component_scalars();
       copy_out(frame_layout(pixels(bundle), request.components, false).attributes, pixels(bundle) * names.size(),
                frame.attributes);
     }
@@ -59,18 +62,22 @@ class GlRenderer final : public Renderer {
     return frame;
   }
 
-  Frame shade(const Bundle& bundle, const ShaderSource& source, const Frame& cpu_frame, double time_limit_seconds) {
+  Frame shade(const Bundle& bundle, const ShaderSource& source, const Frame& cpu_frame, std::uint32_t output,
+              double time_limit_seconds) {
     validate(bundle, "bundle");
     const FragmentShader shader = rewrite_fragment_shader(source, InputStyle::globals);
     if (!shader.derivative.empty())
       throw UserError(shader.derivative +
                       " cannot be shaded on softpipe: pixels are drawn there without their primitive's neighbours");
-    const ShaderGenerator generator(source, shader, supplied_inputs(bundle.attributes, source, shader.inputs),
-                                    Supply::texels, 330);
+    ShaderGenerator generator(source, shader, supplied_inputs(bundle.attributes, source, shader.inputs), Supply::texels,
+                              330);
+    generator.choose_output(output);
     DrawRequest request = basic_request(bundle, source, generator, time_limit_seconds);
     const std::vector<std::string> names = generator.component_names();
     request.components = std::uint32_t(names.size());
-    return exchange(bundle, source, request, &cpu_frame, names);
+    Frame frame = exchange(bundle, source, request, &cpu_frame, names);
+    frame.color_scalar = generator.color_scalar();
+    return frame;
   }
 
   std::vector<Buffer> dispatch(const Bundle& bundle, const ShaderSource& source,
@@ -168,10 +175,10 @@ std::unique_ptr<Renderer> make_gl_renderer(GlBackend backend, const GlEnvironmen
 }
 
 Frame shade_on_softpipe(const Bundle& bundle, const ShaderSource& source, const Frame& cpu_frame,
-                        const GlEnvironment& environment, double time_limit_seconds) {
+                        const GlEnvironment& environment, double time_limit_seconds, std::uint32_t output) {
   if (cpu_frame.width != bundle.width || cpu_frame.height != bundle.height)
     throw UserError("softpipe: the frame to shade has another size than the bundle");
-  return gl::GlRenderer(GlBackend::softpipe, environment).shade(bundle, source, cpu_frame, time_limit_seconds);
+  return gl::GlRenderer(GlBackend::softpipe, environment).shade(bundle, source, cpu_frame, output, time_limit_seconds);
 }
 
 std::vector<Buffer> dispatch_on_gl(GlBackend backend, const Bundle& bundle, const ShaderSource& source,

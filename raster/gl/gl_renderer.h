@@ -25,9 +25,9 @@ struct GlEnvironment {
 std::unique_ptr<Renderer> make_gl_renderer(GlBackend backend, const GlEnvironment& environment = {});
 
 // Shades on softpipe the pixels that cpu_frame covers, from cpu_frame.attributes (captured). Other pixels stay as
-// cleared.
+// cleared. output: as DrawOptions::output.
 Frame shade_on_softpipe(const Bundle& bundle, const ShaderSource& source, const Frame& cpu_frame,
-                        const GlEnvironment& environment, double time_limit_seconds);
+                        const GlEnvironment& environment, double time_limit_seconds, std::uint32_t output = 0);
 
 // Runs a compute shader of GLSL 430 or later, or ES 310, on llvmpipe over `groups` work groups, with the bundle's
 // uniforms, textures and buffers, and gives back the bundle's storage buffers as it left them. Errors as those of a

@@ -60,8 +60,8 @@ constexpr std::size_t kLargeTexture = std::size_t{1} << 19;  // bytes
 
 class Binder {
  public:
-  Binder(const Bundle& bundle, const ShaderModule& module, AttributeMode mode)
-      : bundle_(bundle), module_(module), mode_(mode) {}
+  Binder(const Bundle& bundle, const ShaderModule& module, AttributeMode mode, std::uint32_t output)
+      : bundle_(bundle), module_(module), mode_(mode), output_(output) {}
 
   BoundDraw bind() {
     bind_inputs();
@@ -342,15 +342,23 @@ class Binder {
   void choose_color() {
     if (module_.output_count == 0) return;
     const ShaderVariable* color = &module_.outputs[0];
-    for (std::uint32_t i = 0; i < module_.output_count; ++i)
-      if (module_.outputs[i].location == 0) color = &module_.outputs[i];
-    draw_.color_first = color->first_component;
+    std::uint32_t element = 0;
+    for (std::uint32_t i = 0; i < module_.output_count; ++i) {
+      const ShaderVariable& output = module_.outputs[i];
+      const std::int64_t behind = std::int64_t{output_} - output.location;
+      if (output.location < 0 || behind < 0 || behind >= std::max(1u, output.array_length)) continue;
+      color = &output;
+      element = std::uint32_t(behind);
+    }
+    draw_.color_first = color->first_component + element * color->rows;
     draw_.color_components = color->rows;
+    draw_.color_scalar = color->scalar;
   }
 
   const Bundle& bundle_;
   const ShaderModule& module_;
   const AttributeMode mode_;
+  const std::uint32_t output_;  // location
   BoundDraw draw_;
 };
 
@@ -363,8 +371,8 @@ void BoundDraw::reset_buffers(const Bundle& bundle) {
   }
 }
 
-BoundDraw bind(const Bundle& bundle, const ShaderModule& module, AttributeMode mode) {
-  return Binder(bundle, module, mode).bind();
+BoundDraw bind(const Bundle& bundle, const ShaderModule& module, AttributeMode mode, std::uint32_t output) {
+  return Binder(bundle, module, mode, output).bind();
 }
 
 }  // namespace twinshade::tiled

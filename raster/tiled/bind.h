@@ -28,15 +28,17 @@ struct BoundDraw {
   std::vector<std::string> buffer_names;
   std::vector<BufferView> buffers;
 
-  // The output that becomes Frame::color: of location 0, else the first declared.
+  // The output that becomes Frame::color.
   std::uint32_t color_first = 0, color_components = 0;
+  Scalar color_scalar = Scalar::f32;
 
   // Before drawing another frame: undoes what the shader wrote.
   void reset_buffers(const Bundle& bundle);
   ShaderData data() const { return {uniforms.data(), textures.data(), buffers.data()}; }
 };
 
-// UserError naming what the shader asks for and what the bundle has, where they do not fit.
-BoundDraw bind(const Bundle& bundle, const ShaderModule& module, AttributeMode mode);
+// output: as DrawOptions::output. UserError naming what the shader asks for and what the bundle has, where they do not
+// fit.
+BoundDraw bind(const Bundle& bundle, const ShaderModule& module, AttributeMode mode, std::uint32_t output = 0);
 
 }  // namespace twinshade::tiled

@@ -32,7 +32,10 @@ std::string frame_hash(const Frame& frame) {
   hash.add(frame.coverage.data(), frame.coverage.size());
   hash.add(frame.primitive_id.data(), frame.primitive_id.size() * sizeof(std::uint32_t));
   add_floats(hash, frame.depth);
-  add_floats(hash, frame.color);
+  if (frame.color_scalar == Scalar::f32)
+    add_floats(hash, frame.color);
+  else
+    hash.add(frame.color.data(), frame.color.size() * sizeof(float));
   return hash.hex();
 }
 

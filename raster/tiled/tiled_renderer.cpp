@@ -18,6 +18,7 @@ void allocate(Frame& frame, const Bundle& bundle, const BoundDraw& bound, const 
   frame.width = bundle.width;
   frame.height = bundle.height;
   frame.color.resize(pixels * 4);
+  frame.color_scalar = bound.color_scalar;
   frame.depth.resize(pixels);
   frame.primitive_id.resize(options.visibility ? pixels : 0);
   frame.coverage.resize(options.visibility ? pixels : 0);
@@ -25,6 +26,7 @@ void allocate(Frame& frame, const Bundle& bundle, const BoundDraw& bound, const 
   if (options.capture_attributes) {
     frame.attributes.resize(pixels * bound.input_components);
     frame.attribute_names = bound.component_names;
+    frame.attribute_scalars = bound.input_scalars;
   }
 }
 
@@ -98,7 +100,7 @@ Frame draw_tiled(const Bundle& bundle, const ShaderModule& module, const DrawOpt
                     "\" was translated by another version: translate it again");
   validate(bundle, "bundle");
   const ShaderEntry& entry = choose_entry(module, options.number, options.isa);
-  BoundDraw bound = bind(bundle, module, options.attributes);
+  BoundDraw bound = bind(bundle, module, options.attributes, options.output);
   Frame frame;
   allocate(frame, bundle, bound, options, entry.number == Number::float64);
 

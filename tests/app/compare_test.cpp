@@ -120,6 +120,53 @@ TEST_CASE("a sum that a driver may refactor is found, and layer, pixel, inputs a
   CHECK(first["a_hex"] != first["b_hex"]);
 }
 
+TEST_CASE("an integer output that differs is found, as integers, and so is what differs in a second output") {
+  const Folder folder;
+  const std::string head =
+      "#version 450\nlayout(location = 0) in vec2 v_uv;\nlayout(location = 1) flat in int v_material;\n";
+  // sin is the driver's own.
+  const std::string packed =
+      folder.file("packed.frag",
+                  head +
+                      "out uint packed_color;\nvoid main() {\n"
+                      "  packed_color = 0xffc00000u + uint(fract(sin(v_uv.x * 12.9898) * 43758.5453) * 65536.0);\n}\n");
+  const std::string two =
+      folder.file("two.frag", head +
+                                  "layout(location = 0) out vec4 color;\nlayout(location = 2) out vec4 more[2];\n"
+                                  "void main() {\n  color = vec4(v_material);\n"
+                                  "  more[0] = vec4(1.0);\n  more[1] = vec4(sin(v_uv * 40.0), 0.0, 1.0);\n}\n");
+  for (const std::string& backend : opengl_backends()) {
+    Run run = run_twinshade(small_quad({"compare"}, {"--shader", packed, "--on", "cpu," + backend, "--json", "-"}));
+    CHECK(run.code == 1);
+    auto json = run.json();
+    REQUIRE(json["results"].size() == 1);
+    const auto first = json["results"][0]["first_difference"];
+    CHECK(first["a_hex"].get<std::string>().find("0xffc") == 0);
+    CHECK(first["a"].get<double>() > 4e9);
+    CHECK(run.err.find(" apart") != std::string::npos);
+
+    run = run_twinshade(
+        small_quad({"compare"}, {"--shader", two, "--on", "cpu," + backend, "--json", "-", "-o", folder / "out"}));
+    CHECK(run.code == 1);
+    json = run.json();
+    REQUIRE(json["results"].size() == 3);
+    const std::vector<std::pair<std::string, std::string>> expected = {
+        {"color", "equal"}, {"more[0]", "equal"}, {"more[1]", "DIFFERS"}};
+    for (std::size_t i = 0; i < 3; ++i) {
+      CHECK(json["results"][i]["output"] == expected[i].first);
+      CHECK(json["results"][i]["verdict"] == expected[i].second);
+    }
+    CHECK(run.err.find("two.frag: more[1]: cpu and " + backend + " differ") != std::string::npos);
+    CHECK(run.err.find("v_material = 0 (0x00000000)") != std::string::npos);
+  }
+}
+
+TEST_CASE("softpipe alone is compared with the CPU, which must be named") {
+  const Run run = run_twinshade(small_quad({"compare"}, {"--technique", "h4", "--on", "egl,softpipe"}));
+  CHECK(run.code == 2);
+  CHECK(run.err.find("name cpu first, as cpu,softpipe") != std::string::npos);
+}
+
 TEST_CASE("pictures of frames, and of differences where there are any, are written") {
   const std::vector<std::string> opengl = opengl_backends();
   if (opengl.empty()) return;

@@ -89,6 +89,18 @@ TEST_CASE("a bundle whose parts do not fit together is refused") {
   bundle = small_bundle();
   bundle.textures[0].kind = TextureKind::cube;
   CHECK_THROWS_WITH_AS(validate(bundle, "b"), doctest::Contains("map"), UserError);
+  for (const auto& change : std::vector<void (*)(Bundle&)>{
+           [](Bundle& b) { b.textures[0].kind = TextureKind(3); }, [](Bundle& b) { b.textures[0].filter = Filter(77); },
+           [](Bundle& b) { b.textures[0].wrap = Wrap(255); }, [](Bundle& b) { b.attributes[0].scalar = Scalar(4); },
+           [](Bundle& b) {  // 2^64 texels' floats, which is none
+             b.textures[0].width = b.textures[0].height = 0x80000000u, b.textures[0].layers = 1;
+             b.textures[0].kind = TextureKind::two_d, b.textures[0].texels.clear();
+           }}) {
+    bundle = small_bundle();
+    change(bundle);
+    CHECK_THROWS_AS(validate(bundle, "b"), UserError);
+    CHECK_THROWS_AS(deserialize(serialize(bundle), "b"), UserError);
+  }
 }
 
 TEST_CASE("fitting to the power-of-two viewport keeps every window position") {

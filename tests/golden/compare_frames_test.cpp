@@ -35,6 +35,7 @@ float next(float v, int steps) {
 void capture(Frame& frame) {
   const std::size_t pixels = frame.coverage.size();
   frame.attribute_names = {"v_uv.x", "v_uv.y"};
+  frame.attribute_scalars = {Scalar::f32, Scalar::f32};
   frame.attributes.resize(2 * pixels);
   for (std::size_t i = 0; i < pixels; ++i) frame.attributes[i] = float(i), frame.attributes[pixels + i] = -float(i);
 }
@@ -49,6 +50,35 @@ TEST_CASE("a frame equals itself") {
   CHECK(c.max_ulp == 0);
   CHECK_FALSE(c.first.has_value());
   CHECK(c.ulp_histogram[0] == 16 * 7 * 4);
+}
+
+TEST_CASE("integers are compared by their bits, whatever floats those would be") {
+  Frame a = sample_frame();
+  const std::size_t i = at(a, 3, 2);
+  REQUIRE(a.coverage[i]);
+  a.color[4 * i] = std::bit_cast<float>(0xff80c0ffu);  // a NaN, as packed colours are
+  Frame b = a;
+  b.color[4 * i] = std::bit_cast<float>(0xff80c101u);
+  CHECK(compare_frames(a, b).equal());
+  a.color_scalar = b.color_scalar = Scalar::u32;
+  Comparison c = compare_frames(a, b);
+  CHECK(c.pixels_differ == 1);
+  CHECK(c.denormal_only == 0);
+  REQUIRE(c.first.has_value());
+  CHECK(c.first->a == double(0xff80c0ffu));
+  CHECK(c.first->ulp == 2);
+
+  a.color_scalar = b.color_scalar = Scalar::i32;
+  a.color[4 * i] = std::bit_cast<float>(1);
+  b.color[4 * i] = 0;  // no denormal that was flushed
+  c = compare_frames(a, b);
+  CHECK(c.pixels_differ == 1);
+  CHECK(c.denormal_only == 0);
+  CHECK(c.max_ulp == 1);
+  a.color[4 * i] = std::bit_cast<float>(-2147483647 - 1);
+  b.color[4 * i] = std::bit_cast<float>(2147483647);
+  CHECK(compare_frames(a, b).max_ulp == 0xffffffffu);
+  CHECK(compare_frames(a, b).first->a == -2147483648.0);
 }
 
 TEST_CASE("ULP distance counts representable floats") {
@@ -151,8 +181,8 @@ TEST_CASE("differing attributes come before the colour that they change, with th
   CHECK(c.first->layer == "attributes");
   CHECK(c.first->component == 1);
   REQUIRE(c.first->inputs.size() == 2);
-  CHECK(c.first->inputs[0].first == "v_uv.x");
-  CHECK(c.first->inputs[0].second == float(pixel));
+  CHECK(c.first->inputs[0].name == "v_uv.x");
+  CHECK(c.first->inputs[0].bits == std::bit_cast<std::uint32_t>(float(pixel)));
 }
 
 TEST_CASE("attributes of uncovered pixels mean nothing") {

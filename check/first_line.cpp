@@ -187,8 +187,8 @@ class Search {
              std::to_string(order_.size()) + ")";
     if (trace_.all > kMostValues) return "none of the first " + std::to_string(kMostValues) + " values differs";
     if (!all_.complete)
-      return "no value differs of those that can be looked at (not doubles, nor stores through an index that calls a "
-             "function)";
+      return "no value differs of those that can be looked at (not doubles, stores through an index that calls a "
+             "function, nor arrays that a condition stores)";
     return "no value differs when it is looked at: the difference needs several statements compiled as one, or is in "
            "an output that is never written";
   }

@@ -6,6 +6,7 @@
 #include "cpu_shaders/lint/parser.h"
 #include "cpu_shaders/rewrite/exact_functions.h"
 #include "cpu_shaders/rewrite/new_keywords.h"
+#include "cpu_shaders/rewrite/probe_functions.h"
 #include "cpu_shaders/rewrite/token_edits.h"
 #include "cpu_shaders/translate/compile_glsl.h"
 
@@ -15,53 +16,6 @@ namespace {
 
 using Base = GlslType::Base;
 using Kind = Expression::Kind;
-
-constexpr const char* kPrelude = R"(flat in int twinshadeprobe_target;
-out uvec4 twinshadeprobe_value;
-out uvec4 twinshadeprobe_place;
-int twinshadeprobe_count;
-void twinshadeprobe_bits(int value, uvec4 bits, uint type, uvec2 elements) {
-  if (twinshadeprobe_count == twinshadeprobe_target) {
-    twinshadeprobe_value = bits;
-    twinshadeprobe_place = uvec4(uint(value + 1), 0u, type | elements.x, elements.y);
-  }
-  ++twinshadeprobe_count;
-  twinshadeprobe_place.y = uint(twinshadeprobe_count);
-}
-void twinshadeprobe_globals();
-)";
-
-constexpr const char *kGlobals = "twinshadeprobe_globals", *kThrough = "twinshadeprobe_through";
-
-// Overloads of twinshadeprobe_tell, and of twinshadeprobe_through, which also gives back what it was given.
-std::string probe_functions() {
-  std::string text = kPrelude;
-  struct Row {
-    const char *scalar, *prefix;
-  };
-  unsigned scalar = 0;  // in the order of enum Scalar
-  for (const Row& row : {Row{"float", "vec"}, Row{"int", "ivec"}, Row{"uint", "uvec"}, Row{"bool", "bvec"}}) {
-    for (unsigned n = 1; n <= 4; ++n) {
-      const std::string type = n == 1 ? row.scalar : row.prefix + std::to_string(n);
-      const std::string padding = n == 1 ? ", 0, 0, 0" : n == 2 ? ", 0, 0" : n == 3 ? ", 0" : "";
-      const std::string four = scalar == 0 ? "floatBitsToUint(vec4(v" + padding + "))" : "uvec4(v" + padding + ")";
-      const std::string told = std::to_string(scalar | n << 2) + "u";
-      text += "void twinshadeprobe_tell(int i, uvec2 e, " + type + " v) { twinshadeprobe_bits(i, " + four + ", " +
-              told + ", e); }\n";
-      text += type + " " + kThrough + "(int i, " + type + " v) { twinshadeprobe_tell(i, uvec2(0u), v); return v; }\n";
-    }
-    ++scalar;
-  }
-  for (int columns = 2; columns <= 4; ++columns)
-    for (int rows = 2; rows <= 4; ++rows) {
-      const std::string type = "mat" + std::to_string(columns) + (rows == columns ? "" : "x" + std::to_string(rows));
-      text += type + " " + kThrough + "(int i, " + type + " m) {";
-      for (int c = 0; c < columns; ++c)
-        text += " twinshadeprobe_tell(i + " + std::to_string(c) + ", uvec2(0u), m[" + std::to_string(c) + "]);";
-      text += " return m; }\n";
-    }
-  return text;
-}
 
 bool may_hold_floats(const GlslType& type) { return !type.is_integer() && type.base != Base::boolean; }
 
@@ -133,7 +87,7 @@ class Probe : public Listener {
       return;
     }
     arguments(e);
-    if (role == Role::condition || role == Role::selector) return condition(e);
+    if (role == Role::condition || role == Role::selector) return condition(e, role);
     if (role == Role::result) {
       if (!e.operands.empty()) result(*e.operands[0]);
       return;
@@ -142,16 +96,7 @@ class Probe : public Listener {
   }
 
   void statement_end(std::size_t first, std::size_t last) override {
-    if (!returned_.text.empty()) {
-      // Through a function that stands outside, where nothing hides the type.
-      const std::string name = kThrough + ("_" + std::to_string(statements_.size()));
-      if (const std::string told = tell(first, last, {returned_}); !told.empty()) {
-        edits_.before(header_first_, result_type_ + name + "(" + result_type_ + returned_.text + ") {" + told +
-                                         " return " + returned_.text + "; } ");
-        edits_.collapse(first, last, "return " + name + "(" + returned_value_ + ");");
-      }
-      returned_.text.clear();
-    }
+    if (!returned_.text.empty()) return_end(first, last);
     if (stored_.empty()) return;
     std::vector<Target> targets;
     targets.swap(stored_);
@@ -227,19 +172,23 @@ class Probe : public Listener {
       if (list_.tokens[i].text == "discard") edits_.replace(i, "return");
   }
 
-  std::string without_spaces(std::size_t first, std::size_t last) const {
+  // Tokens [first, last) as the author wrote them.
+  std::string written(std::size_t first, std::size_t last, const std::string& between = "") const {
     std::string text;
-    for (std::size_t i = first; i < last; ++i) text += list_.tokens[i].text;
+    for (std::size_t i = first; i < last; ++i) text += (i > first ? between : "") + list_.tokens[i].text;
     return text;
   }
+
+  // To read once more what was stored: without the probes that may have begun around it. Within it there are none, as
+  // it is repeatable and they are in calls.
+  std::string place_text(const Expression& place) const { return written(place.first, place.last, " "); }
 
   Target target(const Expression& e) const {
     const bool declared = e.kind == Kind::declaration;
     const Expression& place = declared ? e : *e.operands[0];
-    const std::string text = declared ? e.text : edits_.text(place.first, place.last);
-    return {
-        text,       declared ? text : without_spaces(place.first, place.last), place.type, e.first, e.last, declared,
-        computes(e)};
+    const std::string text = declared ? e.text : place_text(place);
+    return {text,       declared ? text : written(place.first, place.last), place.type, e.first, e.last, declared,
+            computes(e)};
   }
 
   // What an expression stores, in the order in which it does.
@@ -260,8 +209,8 @@ class Probe : public Listener {
       if (!e.written[i]) continue;
       const Expression& argument = *e.operands[i];
       if (is_repeatable(argument))
-        add({edits_.text(argument.first, argument.last), without_spaces(argument.first, argument.last), argument.type,
-             e.first, e.last, false, true});
+        add({place_text(argument), written(argument.first, argument.last), argument.type, e.first, e.last, false,
+             true});
       else
         complete_ = false;
     }
@@ -402,17 +351,73 @@ class Probe : public Listener {
     return "uvec2(" + third + ", " + first + second + ")";
   }
 
-  void condition(const Expression& e) {
-    if (e.kind == Kind::declaration || e.kind == Kind::variable || e.kind == Kind::literal) return;
+  // What an if, a loop or a switch tests. What it stores is told in the same place, before the test is.
+  void condition(const Expression& whole, Role role) {
+    const Expression& e = whole.kind == Kind::declaration ? *whole.operands[0] : whole;  // while (bool b = ...)
+    if (e.kind == Kind::variable || e.kind == Kind::literal) return;
+    if (e.kind == Kind::construct && e.text == "{") {
+      complete_ = false;
+      return;
+    }
+    std::vector<Target> targets;
+    collect(e, targets);
+    const bool is_uint = role == Role::selector && e.type.base == Base::uint32;
+    const bool is_known = role == Role::condition || e.type.is_integer();
+    // Elements are told in loops, which are no expressions.
+    const auto left_out = std::erase_if(targets, [&](const Target& t) { return !is_known || has_elements(t.type); });
+    if (left_out > 0) complete_ = false;
+    if (const std::string told = tell(e.outer_first, e.outer_last, targets); !told.empty()) {
+      const std::string kept = kKept + std::string(role == Role::condition ? "_bool" : is_uint ? "_uint" : "_int");
+      if (is_bare_sequence(e)) edits_.parenthesize(e.first, e.last);
+      edits_.before(e.outer_first, "(" + kept + " = ");
+      edits_.behind(e.outer_last - 1, as_operands(told) + ", " + kept + ")");
+    }
     through(e, "condition");
+  }
+
+  // Calls of twinshadeprobe_tell as further operands of a sequence: " a(); b();" gives ", a(), b()".
+  static std::string as_operands(std::string told) {
+    told.pop_back();
+    std::replace(told.begin(), told.end(), ';', ',');
+    return "," + told;
+  }
+
+  bool has_elements(const GlslType& type) const {
+    if (type.array_dimensions > 0) return true;
+    const auto members = parser_->structures().find(type.name);
+    return type.base == Base::structure && members != parser_->structures().end() &&
+           std::any_of(members->second.begin(), members->second.end(),
+                       [this](const auto& member) { return has_elements(member.second.type); });
   }
 
   // A variable was told when it was stored.
   void result(const Expression& returned) {
     if (returned.kind == Kind::variable || returned.constant) return;
+    collect(returned, stored_);
     returned_ = {"twinshadeprobe_result", "result of " + function_, returned.type, 0, 0, false, computes(returned)};
     if (is_bare_sequence(returned)) edits_.parenthesize(returned.first, returned.last);
     returned_value_ = edits_.text(returned.outer_first, returned.outer_last);
+  }
+
+  // Of `return ...;`, its tokens: what it stores is told before its result, which waits in a variable. That and the
+  // function that tells the result stand outside, where nothing hides the type.
+  void return_end(std::size_t first, std::size_t last) {
+    const std::string number = "_" + std::to_string(statements_.size());
+    const std::string stores = tell(first, last, stored_), told = tell(first, last, {returned_});
+    const std::string kept = kKept + number, name = kThrough + number;
+    if (!told.empty())
+      edits_.before(header_first_, result_type_ + name + "(" + result_type_ + returned_.text + ") {" + told +
+                                       " return " + returned_.text + "; } ");
+    if (!stores.empty()) {
+      edits_.before(header_first_, result_type_ + kept + "; ");
+      edits_.collapse(first, last,
+                      "{ " + kept + " = " + returned_value_ + ";" + stores + " return " +
+                          (told.empty() ? kept : name + "(" + kept + ")") + "; }");
+    } else if (!told.empty()) {
+      edits_.collapse(first, last, "return " + name + "(" + returned_value_ + ");");
+    }
+    stored_.clear();
+    returned_.text.clear();
   }
 
   const TokenList& list_;

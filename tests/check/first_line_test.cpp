@@ -72,6 +72,22 @@ TEST_CASE("executions are counted, not values; members, columns and elements are
               "(result of f)[1]");
 }
 
+TEST_CASE("what a condition, a selector, a result or an argument stores is named there, not where it is used") {
+  const std::string product = "a.x * a.y * a.z";
+  check_first("void main() {\n  float t;\n  if ((t = " + product + ") > 1.0) c = a.xyzx;\n  c = vec4(t);\n}\n", 4, "t");
+  check_first("void main() {\n  float t;\n  switch (int(t = " + product + ")) { default: }\n  c = vec4(t);\n}\n", 4,
+              "t");
+  check_first("void main() {\n  float t = 1.0;\n  for (int i = 0; (t *= " + product +
+                  ") > -1.0 && i < 3; ++i) ;\n  c = vec4(t);\n}\n",
+              4, "t");
+  check_first("float g;\nfloat f() {\n  return (g = " + product +
+                  ", 1.0); }\nvoid main() {\n  float r = f();\n  c = vec4(r, g, 0, 1); }\n",
+              4, "g");
+  check_first("float f(float x) { return 1.0; }\nvoid main() {\n  float x = 0.0, y;\n  y = f(x += 1.0);\n  y = f(x = " +
+                  product + ");\n  c = vec4(x, y, 0, 1); }\n",
+              6, "argument 1 of f");
+}
+
 TEST_CASE("values keep their type") {
   const FirstLine found = first_line_of(
       "void main() {\n  uint bits = floatBitsToUint(-(a.x * a.y * a.z));\n  c = vec4(uintBitsToFloat(bits)); }\n");

@@ -174,6 +174,81 @@ TEST_CASE("a, b without parentheses is told as a condition and as a result") {
   CHECK(names(shader, 5, "condition"));
 }
 
+TEST_CASE("what an argument stores is told, without parentheses around it too") {
+  const ShaderSource source = resolve_shader("t",
+                                             "in float a; out float c; struct S { float x; };\n"
+                                             "float f(float x) { return x * 2.0; } float g(S s) { return s.x; }\n"
+                                             "void main() {\n"
+                                             "  float x = a, w[2] = float[](a, a); int i = 0;\n"
+                                             "  c = f(x += 0.5);\n"
+                                             "  c += f(x++) + f(--x);\n"
+                                             "  c += f(w[i++ & 1]);\n"
+                                             "  c += g(S(w[i] = a));\n"
+                                             "  f(f(x = c));\n"
+                                             "}\n",
+                                             "t.frag");
+  const ProbedShader shader = add_probes(source);
+  CHECK_NOTHROW(compile_glsl(shader.source));
+  for (std::size_t k = 0; k < shader.statements.size(); ++k)
+    CHECK_NOTHROW(compile_glsl(add_probes(source, std::set<std::size_t>{k}).source));
+  CHECK(names(shader, 5, "x, c"));
+  CHECK(names(shader, 6, "x, c"));
+  CHECK(names(shader, 7, "i, c"));
+  CHECK(names(shader, 8, "w[i], c"));
+  CHECK(names(shader, 9, "x"));
+}
+
+TEST_CASE("what conditions, selectors and results store is told") {
+  const ShaderSource source = resolve_shader("t",
+                                             "in float a; out float c; float g; struct S { float x; vec2 v; };\n"
+                                             "S s; float two(out float x, inout S s) { x = s.x = a; return x; }\n"
+                                             "float f() {\n  return (g = sin(a), 1.0); }\n"
+                                             "S h() { float w[2];\n  return w[0] = a, S(w[1] = a, vec2(g += 1.0)); }\n"
+                                             "double d() {\n  return g = a, 2.0lf; }\n"
+                                             "void main() {\n"
+                                             "  float t; int i = 0; uint u;\n"
+                                             "  if ((t = sin(a)) > 0.5) c = t; else if (two(t, s) > 1.0) c = 2.0;\n"
+                                             "  while (i++, (t *= 1.5) < 9.0) ;\n"
+                                             "  do c += t; while ((s.v.x = t) < g--);\n"
+                                             "  for (; ++i < 9;) ;\n"
+                                             "  while (bool b = (t += 1.0) < 20.0) if (b) c = t;\n"
+                                             "  switch (int(t = sin(a))) { default: c = 1.0; }\n"
+                                             "  switch (u = uint(t)) { default: c = f() + h().x; }\n"
+                                             "  if (true || d() > (c = 3.0)) ;\n"
+                                             "}\n",
+                                             "t.frag");
+  const ProbedShader shader = add_probes(source);
+  CHECK_NOTHROW(compile_glsl(shader.source));
+  for (std::size_t k = 0; k < shader.statements.size(); ++k)
+    CHECK_NOTHROW(compile_glsl(add_probes(source, std::set<std::size_t>{k}).source));
+  const std::vector<std::pair<int, std::string>> expected = {
+      {4, "g"},  {4, "result of f"}, {6, "w[0], w[1], g"}, {6, "result of h"}, {8, "g"},
+      {11, "t"}, {11, "t, s"},       {11, "condition"},    {12, "i, t"},       {13, "s.v.x, g"},
+      {14, "i"}, {15, "t"},          {15, "condition"},    {16, "t"},          {17, "u"},
+      {18, "c"}};
+  for (const auto& statement : expected) {
+    CAPTURE(statement.first);
+    CAPTURE(statement.second);
+    CHECK(names(shader, statement.first, statement.second));
+  }
+}
+
+TEST_CASE("arrays that a condition stores are not told, and it is said that not everything is") {
+  const auto complete = [](const std::string& condition) {
+    const ProbedShader shader =
+        add_probes(resolve_shader("t",
+                                  "in float a; out float c; struct S { float w[2]; };\n"
+                                  "void main() { float w[2] = float[](a, a), v[2]; S s, r; if (" +
+                                      condition + ") c = a; }\n",
+                                  "t.frag"));
+    CHECK_NOTHROW(compile_glsl(shader.source));
+    return shader.complete;
+  };
+  CHECK_FALSE(complete("(v = w)[0] > 1.0"));
+  CHECK_FALSE(complete("(s = r).w[0] > 1.0"));
+  CHECK(complete("(v[0] = w[1]) > 1.0"));
+}
+
 TEST_CASE("a loop that ends by discarding ends with probes too") {
   const ShaderSource source = resolve_shader("t",
                                              "in float a; out float c;\n"

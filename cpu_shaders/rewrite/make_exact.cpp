@@ -343,7 +343,9 @@ class MakeExact : public Listener {
       if (type_text(arguments.back()).empty()) return varies;
     }
     if (arguments.empty()) return varies;
-    const std::string name = functions_.function(e.text, arguments);
+    const std::string line =
+        "#line " + std::to_string(e.line) + " \"" + list_.files[static_cast<std::size_t>(e.file)] + "\"";
+    const std::string name = functions_.function(e.text, arguments, line);
     if (name.empty()) return varies;
     for (const ExpressionPtr& argument : e.operands) to_float(*argument, known);
     if (one_of(e.text, {"min", "max", "clamp"}) && !is_known(*e.operands[0]) && !is_known(*e.operands[1]))
@@ -476,6 +478,7 @@ ExactShader make_exact(const ShaderSource& source, ExactScope scope) {
   for (const Token& token : tokens.tokens)
     if (stands_before(tokens.files[static_cast<std::size_t>(token.file)])) candidates.erase(token.text);
   give_way(new_keywords(tokens, source));
+  give_way(new_functions(tokens, source));
   const std::string before = rewrite_and_rename();
   for (const std::string& name : candidates)
     if ((name.rfind("exact_", 0) == 0 || name.rfind("written_", 0) == 0) && find_word(before, name) != before.npos)

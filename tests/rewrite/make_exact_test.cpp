@@ -347,6 +347,54 @@ TEST_CASE("GLSL ES and older versions are rewritten as GLSL 4.50") {
   CHECK_NOTHROW(CHECK(make_exact(buffers).left.empty()));
 }
 
+TEST_CASE("functions that became built-in ones in later versions give way to those") {
+  const std::string body =
+      "in float v; out vec4 c;\n"
+      "uint bitCount(uint x) { uint n = 0u; for (; x != 0u; x &= x - 1u) ++n; return n; }\n"
+      "highp vec2[2] fma(float a);\n"
+      "float noise(float x) { float max3 = x; return max3; }\n"
+      "void main() { c = vec4(sin(v), float(bitCount(uint(v))), fma(v)[1] * noise(v)); }\n"
+      "highp vec2[2] fma(float a) { return vec2[2](vec2(a), vec2(a)); }\n";
+  for (const std::string version : {"330", "300 es"}) {
+    CAPTURE(version);
+    const ShaderSource source =
+        resolve_shader("t", "#version " + version + "\nprecision highp float;\n" + body, "t.frag");
+    const ExactShader exact = make_exact(source);
+    CHECK_NOTHROW(compile_glsl(exact.source));
+    CHECK(exact.left.empty());
+    CHECK(exact.renamed == std::map<std::string, std::string>{{"bitCount", "bitCount_name"}, {"fma", "fma_name"}});
+    CHECK_NOTHROW(compile_glsl(add_probes(source).source));
+    for (const ProbedStatement& statement : add_probes(source).statements)
+      CHECK(statement.what.find("twinshadeprobe") == std::string::npos);
+    CHECK_NOTHROW(make_exact(source, ExactScope::constants));
+  }
+  const ShaderSource noise = resolve_shader("t",
+                                            "#version 300 es\nprecision highp float;\nin vec2 v; out vec4 c;\n"
+                                            "float noise2(vec2 p) { return sin(p.x) * p.y; }\n"
+                                            "void main() { c = vec4(noise2(v)); }\n",
+                                            "t.frag");
+  CHECK_NOTHROW(make_exact(noise));
+  CHECK_NOTHROW(compile_glsl(add_probes(noise).source));
+  // built in by an extension, not declared by the shader
+  const ShaderSource extended = resolve_shader("t",
+                                               "#version 330\n#extension GL_ARB_gpu_shader5 : enable\n"
+                                               "flat in uint v; out vec4 c;\nvoid main() { c = vec4(bitCount(v)); }\n",
+                                               "t.frag");
+  CHECK(make_exact(extended).renamed.empty());
+}
+
+TEST_CASE("a derivative that is written out is found at the author's line") {
+  const std::string text =
+      make_exact(shader_of("color = vec4(fwidth(a), 1.0);\ncolor.x += fwidth(a.x) + fwidthFine(a).x + fwidth(b).x;"))
+          .source.text;
+  std::string plain = text;
+  std::erase(plain, '\n');
+  CHECK(plain.find("vec3 exact_fwidth(vec3#line 10 \"sample.frag\"fwidth#line") != std::string::npos);
+  CHECK(plain.find("float exact_fwidth(float#line 11 \"sample.frag\"fwidth#line") != std::string::npos);
+  CHECK(plain.find("vec3 exact_fwidthFine(vec3#line 11 \"sample.frag\"fwidthFine#line") != std::string::npos);
+  CHECK(plain.find("vec3 exact_fwidth(vec3#line", plain.find("vec3 exact_fwidth(vec3#line") + 1) == std::string::npos);
+}
+
 TEST_CASE("what a later version than 4.50 allows is still allowed") {
   const ShaderSource later = resolve_shader(
       "later", "#version 460 core\nout vec4 c; in float a; void main() { c = vec4(a * 2.0 + 1.0); };\n", "later.frag");

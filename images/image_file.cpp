@@ -1,6 +1,7 @@
 #include "images/image_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -77,20 +78,38 @@ void check_whole(std::string_view bytes, const std::string& name) {
     refuse(name, "the file is truncated or damaged");
 }
 
-// What a Radiance picture's values have been multiplied by: the product of its header's EXPOSURE lines (Ward, Radiance
-// file formats), which OpenImageIO does not divide by. 1 for other files. Only the header, up to an empty line, is
-// read.
-double radiance_exposure(std::string_view bytes, const std::string& name) {
-  double exposure = 1;
+// Those behind the = of a line; 0 where there is none.
+std::array<double, 3> numbers_of(const std::string& line) {
+  std::array<double, 3> numbers{};
+  const char* at = line.c_str() + line.find('=') + 1;
+  for (double& number : numbers) {
+    char* behind = nullptr;
+    number = std::strtod(at, &behind);
+    at = behind;
+  }
+  return numbers;
+}
+
+// What a Radiance picture's red, green and blue have been multiplied by: the product of its header's EXPOSURE and
+// COLORCORR lines (Ward, Radiance file formats), which OpenImageIO does not divide by. 1 for other files. Only the
+// header, up to an empty line, is read.
+std::array<double, 3> radiance_exposure(std::string_view bytes, const std::string& name) {
+  std::array<double, 3> exposure{1, 1, 1};
   if (bytes.substr(0, 2) != "#?") return exposure;
   while (!bytes.empty()) {
     const std::size_t end = std::min(bytes.find('\n'), bytes.size());
     const std::string line(bytes.substr(0, end));
     if (line.empty() || line == "\r") break;
     bytes.remove_prefix(std::min(end + 1, bytes.size()));
-    if (line.rfind("EXPOSURE=", 0) != 0) continue;
-    exposure *= std::strtod(line.c_str() + 9, nullptr);
-    if (!(exposure > 0 && std::isfinite(exposure))) refuse(name, "its header says " + line);
+    if (line.rfind("FORMAT=32-bit_rle_xyze", 0) == 0)
+      refuse(name, "its colours are CIE XYZ, which is not read; convert it with ra_xyze -r");
+    const bool for_all = line.rfind("EXPOSURE=", 0) == 0;
+    if (!for_all && line.rfind("COLORCORR=", 0) != 0) continue;
+    const std::array<double, 3> factor = numbers_of(line);
+    for (std::size_t c = 0; c < 3; ++c) {
+      exposure[c] *= factor[for_all ? 0 : c];
+      if (!(exposure[c] > 0 && std::isfinite(exposure[c]))) refuse(name, "its header says " + line);
+    }
   }
   return exposure;
 }
@@ -110,15 +129,16 @@ std::string pixel_name(std::size_t index, std::uint32_t width) {
 
 DecodedImage decode_image_file(const std::string& path) {
   try {
-    double exposure = 1;
+    std::array<double, 3> exposure;
     {
       const std::string bytes = read_file(path);
       check_whole(bytes, path);
       exposure = radiance_exposure(bytes, path);
     }
     DecodedImage image = image_codec().read_file(path);
-    if (exposure != 1)
-      for (float& value : image.texels) value = float(double(value) / exposure);
+    if (exposure != std::array<double, 3>{1, 1, 1})
+      for (std::size_t i = 0; i < image.texels.size(); ++i)
+        image.texels[i] = float(double(image.texels[i]) / exposure[i % image.channels % 3]);
     return image;
   } catch (const UserError&) {
     throw;

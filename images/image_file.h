@@ -1,4 +1,5 @@
-// Image files as they are: no colour conversion, no flipping. Radiance pictures are divided by their EXPOSURE.
+// Image files as they are: no colour conversion, no flipping. Radiance pictures are divided by their EXPOSURE
+// and COLORCORR.
 #pragma once
 
 #include <cstddef>

@@ -40,6 +40,17 @@ constexpr std::uint64_t kMostElements = 1u << 28;
 // All zeros but for a sparse part, of which a small file may claim any number.
 constexpr std::uint64_t kMostElementsWithoutView = 1u << 20;
 
+// Linux' PATH_MAX.
+constexpr std::size_t kLongestPath = 4096;
+constexpr int kDeepest =
+    200;  // brackets within brackets, as in shaders: values are copied by functions that call themselves
+
+std::string lower_case(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+  return text;
+}
+
 std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
   std::uint32_t value = 0;
   for (std::size_t i = 4; i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
@@ -48,7 +59,7 @@ std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
 
 std::uint64_t unsigned_number(const json& object, const char* key, std::uint64_t fallback) {
   const auto found = object.find(key);
-  return found == object.end() ? fallback : found->get<std::uint64_t>();
+  return found == object.end() ? fallback : gltf_integer(*found);
 }
 
 std::string percent_decoded(const std::string& uri) {
@@ -104,9 +115,18 @@ double gltf_number(const json& object, const char* key, double fallback) {
   return found == object.end() ? fallback : found->get<double>();
 }
 
+std::uint64_t gltf_integer(const json& value) {
+  if (value.is_number() && !value.is_number_unsigned())
+    throw json::type_error::create(302, "must be an integer from 0 on, but is " + value.dump(), &value);
+  return value.get<std::uint64_t>();
+}
+
 int gltf_index(const json& object, const char* key) {
-  const std::uint64_t index = unsigned_number(object, key, std::numeric_limits<std::uint64_t>::max());
-  return index > 0x7fffffffu ? -1 : int(index);
+  const auto found = object.find(key);
+  if (found == object.end()) return -1;
+  const std::uint64_t index = gltf_integer(*found);
+  if (index > kMostElements) throw json::type_error::create(302, "there is no " + std::to_string(index), &*found);
+  return int(index);
 }
 
 // Where an accessor's elements lie.
@@ -139,6 +159,8 @@ GltfDocument::GltfDocument(const std::string& path) : path_(path) {
 void GltfDocument::check_version() const {
   const std::string version = root_.contains("asset") ? root_.at("asset").value("version", "") : "";
   if (version.substr(0, 2) != "2.") fail("glTF version '" + version + "' is not supported; only 2.x is");
+  if (const std::string least = root_.at("asset").value("minVersion", "2.0"); least != "2.0")
+    fail("needs glTF " + least + " (asset.minVersion), which is not supported; export the model as 2.0");
 }
 
 // The JSON library quotes what it read last, which may be megabytes of a data URI; names in a file may be as long.
@@ -177,8 +199,13 @@ void GltfDocument::read_container(const std::string& content) {
     }
     text = chunk;
   }
+  const auto shallow = [&](int depth, json::parse_event_t, json&) {
+    if (depth > kDeepest)
+      fail("damaged: brackets stand " + std::to_string(kDeepest) + " deep in each other, and deeper");
+    return true;
+  };
   try {
-    root_ = json::parse(text);
+    root_ = json::parse(text, shallow);
   } catch (const json::exception& error) {
     fail("truncated or damaged JSON: " + without_library_name(error));
   }
@@ -210,17 +237,20 @@ std::size_t GltfDocument::default_scene() const { return std::size_t(std::max(0,
 
 // The bytes of a data URI, else the path of the file that the URI names beside this one.
 std::string GltfDocument::resource(const std::string& uri, const std::string& what, std::string* file) const {
-  if (uri.compare(0, 5, "data:") == 0) {
+  if (uri.empty()) fail("damaged: the URI of " + what + " is empty");
+  if (lower_case(uri.substr(0, 5)) == "data:") {
     const std::size_t comma = uri.find(',');
     std::string bytes;
-    if (comma == std::string::npos || uri.find(";base64") > comma ||
+    if (comma == std::string::npos || lower_case(uri.substr(0, comma)).find(";base64") == std::string::npos ||
         !base64_decoded(std::string_view(uri).substr(comma + 1), bytes))
       fail("damaged: the data URI of " + what + " is not base64");
     return bytes;
   }
   if (uri.find("://") != std::string::npos)
-    fail(what + " is on the net (" + uri + "); only files beside the model are read");
+    fail(what + " is not beside the model (" + uri + "); only files there are read: write its path from the model's");
   const std::string name = percent_decoded(uri);
+  if (name.size() > kLongestPath)
+    fail("damaged: the URI of " + what + " has " + std::to_string(name.size()) + " bytes");
   for (char c : name)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
       fail("damaged: the URI of " + what + " has a control character in it (" + uri + ")");
@@ -233,7 +263,7 @@ void GltfDocument::read_buffers() {
   for (std::size_t i = 0; i < count("buffers"); ++i) {
     const json& buffer = element("buffers", i);
     const std::string what = "buffer " + std::to_string(i);
-    const std::uint64_t length = buffer.at("byteLength").get<std::uint64_t>();
+    const std::uint64_t length = gltf_integer(buffer.at("byteLength"));
     std::string bytes, file;
     if (buffer.contains("uri")) {
       bytes = resource(buffer["uri"].get<std::string>(), what, &file);
@@ -258,8 +288,7 @@ std::string_view GltfDocument::view(std::size_t buffer_view) const {
   const int buffer = gltf_index(object, "buffer");
   if (buffer < 0 || std::size_t(buffer) >= buffers_.size())
     fail("damaged: bufferView " + std::to_string(buffer_view) + " has no buffer");
-  const std::uint64_t offset = unsigned_number(object, "byteOffset", 0),
-                      length = object.at("byteLength").get<std::uint64_t>();
+  const std::uint64_t offset = unsigned_number(object, "byteOffset", 0), length = gltf_integer(object.at("byteLength"));
   const std::string& bytes = buffers_[std::size_t(buffer)];
   if (offset > bytes.size() || length > bytes.size() - offset)
     fail("damaged: bufferView " + std::to_string(buffer_view) + " ends beyond its buffer");
@@ -270,7 +299,7 @@ GltfDocument::Layout GltfDocument::layout(std::size_t accessor) const {
   const json& object = element("accessors", accessor);
   const std::string name = "accessor " + std::to_string(accessor);
   Layout result;
-  result.count = object.at("count").get<std::uint64_t>();
+  result.count = gltf_integer(object.at("count"));
   if (result.count > kMostElements) fail("damaged: " + name + " has " + std::to_string(result.count) + " elements");
   result.normalized = object.value("normalized", false);
   const auto type = object.at("type").get<std::string>();
@@ -282,7 +311,7 @@ GltfDocument::Layout GltfDocument::layout(std::size_t accessor) const {
   }
   if (result.rows == 0) fail("damaged: " + name + " has the type " + type);
   result.components = std::uint32_t(result.rows) * columns;
-  result.component_type = object.at("componentType").get<std::uint32_t>();
+  result.component_type = std::uint32_t(gltf_integer(object.at("componentType")));
   switch (result.component_type) {
     case 5120:
     case 5121:
@@ -321,15 +350,17 @@ GltfDocument::Layout GltfDocument::layout(std::size_t accessor) const {
          " elements without a bufferView, of which " + std::to_string(kMostElementsWithoutView) + " may be");
   }
   if (const auto sparse = object.find("sparse"); sparse != object.end()) {
-    const std::uint64_t count = sparse->at("count").get<std::uint64_t>();
+    const std::uint64_t count = gltf_integer(sparse->at("count"));
     const json &indices = sparse->at("indices"), &values = sparse->at("values");
-    const std::uint32_t index_type = indices.at("componentType").get<std::uint32_t>();
+    const std::uint64_t index_type = gltf_integer(indices.at("componentType"));
+    if (index_type != 5121 && index_type != 5123 && index_type != 5125)
+      fail("damaged: " + name + "'s sparse part has indices of the component type " + std::to_string(index_type));
     const std::size_t index_size = index_type == 5121 ? 1 : index_type == 5123 ? 2 : 4;
     const std::string_view index_bytes =
-        fit(view(indices.at("bufferView").get<std::size_t>()), unsigned_number(indices, "byteOffset", 0), index_size,
+        fit(view(gltf_integer(indices.at("bufferView"))), unsigned_number(indices, "byteOffset", 0), index_size,
             index_size, count, "'s sparse part");
-    result.sparse_bytes = fit(view(values.at("bufferView").get<std::size_t>()),
-                              unsigned_number(values, "byteOffset", 0), size, size, count, "'s sparse part");
+    result.sparse_bytes = fit(view(gltf_integer(values.at("bufferView"))), unsigned_number(values, "byteOffset", 0),
+                              size, size, count, "'s sparse part");
     for (std::size_t i = 0; i < count; ++i) {
       std::uint32_t index = 0;
       std::memcpy(&index, index_bytes.data() + i * index_size, index_size);
@@ -407,7 +438,7 @@ GltfDocument::ImageSource GltfDocument::image_of_texture(std::size_t texture) co
   if (image.contains("uri"))
     result.bytes = resource(image["uri"].get<std::string>(), "image " + std::to_string(source), &result.file);
   else
-    result.bytes = view(image.at("bufferView").get<std::size_t>());
+    result.bytes = view(gltf_integer(image.at("bufferView")));
   if (!result.file.empty()) result.name = result.file;
   return result;
 }

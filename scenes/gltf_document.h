@@ -66,7 +66,9 @@ class GltfDocument {
 
 // A number, or `fallback` where the key is missing.
 double gltf_number(const nlohmann::json& object, const char* key, double fallback);
-// An index into another array; -1 where the key is missing. Throws what nlohmann throws for other types.
+// A number that counts or names something. These throw what nlohmann throws for other types, with the place.
+std::uint64_t gltf_integer(const nlohmann::json& value);
+// An index into another array; -1 where the key is missing.
 int gltf_index(const nlohmann::json& object, const char* key);
 
 }  // namespace twinshade

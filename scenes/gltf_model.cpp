@@ -63,15 +63,16 @@ class Reader {
   void find_world_transforms() {
     std::vector<std::size_t> roots;
     if (document_.count("scenes") > 0) {
-      for (const json& node : document_.element("scenes", document_.default_scene()).value("nodes", json::array()))
-        roots.push_back(node.get<std::size_t>());
+      for (const json& node : list(document_.element("scenes", document_.default_scene()), "nodes"))
+        roots.push_back(gltf_integer(node));
     } else {
       std::set<std::size_t> children;
       for (std::size_t i = 0; i < document_.count("nodes"); ++i)
-        for (const json& child : document_.element("nodes", i).value("children", json::array()))
-          children.insert(child.get<std::size_t>());
+        for (const json& child : list(document_.element("nodes", i), "children")) children.insert(gltf_integer(child));
       for (std::size_t i = 0; i < document_.count("nodes"); ++i)
         if (!children.count(i)) roots.push_back(i);
+      if (roots.empty() && document_.count("nodes") > 0)
+        document_.fail("damaged: every node is a child of another, so their tree has no root");
     }
     world_.assign(document_.count("nodes"), dmat4(1));
     std::vector<bool> seen(document_.count("nodes"));
@@ -81,14 +82,31 @@ class Reader {
       const auto [index, parent] = pending.back();
       pending.pop_back();
       const json& node = document_.element("nodes", index);
-      if (seen[index]) document_.fail("damaged: node " + std::to_string(index) + " has two parents");
+      if (seen[index])
+        document_.fail("damaged: node " + std::to_string(index) + " has two parents, or is its own ancestor");
       seen[index] = true;
       world_[index] = parent * local_transform(node);
       order_.push_back(index);
-      const json children = node.value("children", json::array());
+      const json& children = list(node, "children");
       for (auto child = children.rbegin(); child != children.rend(); ++child)
-        pending.push_back({child->get<std::size_t>(), world_[index]});
+        pending.push_back({gltf_integer(*child), world_[index]});
     }
+  }
+
+  // The array or object of a key, which may be missing.
+  static const json& list(const json& object, const char* key) {
+    static const json none = json::array();
+    const auto found = object.find(key);
+    if (found == object.end()) return none;
+    if (!found->is_array()) throw json::type_error::create(302, "type must be array", &*found);
+    return *found;
+  }
+  static const json& part_of(const json& object, const char* key) {
+    static const json none = json::object();
+    const auto found = object.find(key);
+    if (found == object.end()) return none;
+    if (!found->is_object()) throw json::type_error::create(302, "type must be object", &*found);
+    return *found;
   }
 
   static dmat4 local_transform(const json& node) {
@@ -116,7 +134,7 @@ class Reader {
 
   void read_mesh_node(std::size_t index) {
     const json& node = document_.element("nodes", index);
-    const auto mesh_index = node["mesh"].get<std::size_t>();
+    const auto mesh_index = gltf_integer(node["mesh"]);
     const json& mesh = document_.element("meshes", mesh_index);
     const json& primitives = mesh.at("primitives");
     for (std::size_t p = 0; p < primitives.size(); ++p) {
@@ -124,7 +142,7 @@ class Reader {
       ModelPart part;
       part.name = "mesh " + std::to_string(mesh_index) + " '" + mesh.value("name", "") + "'";
       if (primitives.size() > 1) part.name += " part " + std::to_string(p);
-      const int mode = int(gltf_number(primitive, "mode", 4));
+      const auto mode = primitive.contains("mode") ? gltf_integer(primitive["mode"]) : 4;
       if (mode < 4 || mode > 6) {
         notes_.insert("points and lines are not drawn");
         continue;
@@ -137,7 +155,7 @@ class Reader {
       read_triangles(part, primitive, mode);
       if (primitive.contains("targets")) notes_.insert("morph targets are ignored");
       if (node.contains("skin") && attributes.contains("JOINTS_0") && attributes.contains("WEIGHTS_0")) {
-        apply_skin(part, attributes, node["skin"].get<std::size_t>());
+        apply_skin(part, attributes, gltf_integer(node["skin"]));
       } else {
         transform_part(part, world_[index]);
       }
@@ -147,7 +165,7 @@ class Reader {
 
   GltfDocument::Numbers attribute(const ModelPart& part, const json& attributes, const char* name,
                                   std::uint32_t components) {
-    GltfDocument::Numbers numbers = document_.numbers(attributes.at(name).get<std::size_t>());
+    GltfDocument::Numbers numbers = document_.numbers(gltf_integer(attributes.at(name)));
     if (numbers.components != components && !(components == 4 && numbers.components == 3))
       document_.fail("damaged: " + part.name + " has " + name + " of " + std::to_string(numbers.components) +
                      " components");
@@ -166,9 +184,8 @@ class Reader {
       for (std::size_t i = 0; i < normals.count(); ++i)
         part.normals.emplace_back(normals.values[3 * i], normals.values[3 * i + 1], normals.values[3 * i + 2]);
     }
-    // A file's tangents belong to its first uvs as they are.
-    const bool moved = !lookup.same_place(Lookup{}) && lookup.texture >= 0;
-    if (attributes.contains("TANGENT") && attributes.contains("NORMAL") && !moved) {
+    // A file's tangents belong to the normal map's uvs, whichever those are (3.7.2.1).
+    if (attributes.contains("TANGENT") && attributes.contains("NORMAL")) {
       const auto tangents = attribute(part, attributes, "TANGENT", 4);
       for (std::size_t i = 0; i < tangents.count() && tangents.components == 4; ++i) {
         const float* v = &tangents.values[4 * i];
@@ -179,6 +196,7 @@ class Reader {
     if (attributes.contains(set)) {
       const auto uvs = attribute(part, attributes, set.c_str(), 2);
       const double c = portable::cos(lookup.rotation), s = portable::sin(lookup.rotation);
+      const bool moved = !lookup.same_place(Lookup{}) && lookup.texture >= 0;
       for (std::size_t i = 0; i < uvs.count(); ++i) {
         double u = uvs.values[2 * i], v = uvs.values[2 * i + 1];
         if (moved) {
@@ -197,10 +215,10 @@ class Reader {
     if (attributes.contains("COLOR_0")) notes_.insert("vertex colours are ignored");
   }
 
-  void read_triangles(ModelPart& part, const json& primitive, int mode) {
+  void read_triangles(ModelPart& part, const json& primitive, std::uint64_t mode) {
     std::vector<std::uint32_t> list;
     if (primitive.contains("indices")) {
-      list = document_.integers(primitive["indices"].get<std::size_t>());
+      list = document_.integers(gltf_integer(primitive["indices"]));
     } else {
       for (std::uint32_t i = 0; i < part.positions.size(); ++i) list.push_back(i);
     }
@@ -226,11 +244,12 @@ class Reader {
   // Vertices follow their joints as the file leaves them; the node's own transform does not count (3.7.3.3).
   void apply_skin(ModelPart& part, const json& attributes, std::size_t skin_index) {
     const json& skin = document_.element("skins", skin_index);
-    const auto joints = skin.at("joints").get<std::vector<std::size_t>>();
+    std::vector<std::size_t> joints;
+    for (const json& joint : list(skin, "joints")) joints.push_back(gltf_integer(joint));
     std::vector<dmat4> matrices;
     GltfDocument::Numbers inverse_bind;
     if (skin.contains("inverseBindMatrices"))
-      inverse_bind = document_.numbers(skin["inverseBindMatrices"].get<std::size_t>());
+      inverse_bind = document_.numbers(gltf_integer(skin["inverseBindMatrices"]));
     for (std::size_t j = 0; j < joints.size(); ++j) {
       if (joints[j] >= world_.size())
         document_.fail("damaged: skin " + std::to_string(skin_index) + " has no joint " + std::to_string(j));
@@ -239,10 +258,11 @@ class Reader {
         for (int k = 0; k < 16; ++k) bind[k / 4][k % 4] = inverse_bind.values[16 * j + std::size_t(k)];
       matrices.push_back(world_[joints[j]] * bind);
     }
-    const auto which = document_.integers(attributes.at("JOINTS_0").get<std::size_t>());
+    const auto which = document_.integers(gltf_integer(attributes.at("JOINTS_0")));
     const auto weights = attribute(part, attributes, "WEIGHTS_0", 4);
     if (weights.components != 4 || which.size() != weights.values.size())
       document_.fail("damaged: " + part.name + " has joints without weights");
+    std::vector<bool> mirrored(part.positions.size());
     for (std::size_t i = 0; i < part.positions.size(); ++i) {
       dmat4 sum(0);
       for (std::size_t k = 4 * i; k < 4 * i + 4; ++k) {
@@ -251,6 +271,7 @@ class Reader {
           document_.fail("damaged: " + part.name + " follows joint " + std::to_string(which[k]));
         sum += double(weights.values[k]) * matrices[which[k]];
       }
+      mirrored[i] = glm::determinant(glm::dmat3(sum)) < 0;
       ModelPart vertex;
       vertex.positions = {part.positions[i]};
       if (!part.normals.empty()) vertex.normals = {part.normals[i]};
@@ -260,6 +281,10 @@ class Reader {
       if (!part.normals.empty()) part.normals[i] = vertex.normals[0];
       if (!part.tangents.empty()) part.tangents[i] = vertex.tangents[0];
     }
+    // As a node's transform that mirrors turns triangles round, else their front would be another than their normals'.
+    for (std::size_t t = 0; t + 2 < part.indices.size(); t += 3)
+      if (mirrored[part.indices[t]] && mirrored[part.indices[t + 1]] && mirrored[part.indices[t + 2]])
+        std::swap(part.indices[t + 1], part.indices[t + 2]);
     notes_.insert("animations are ignored: skinned meshes are drawn at rest");
   }
 
@@ -303,8 +328,8 @@ class Reader {
     if (index >= 0) {
       const json& object = document_.element("materials", std::size_t(index));
       material.name = object.value("name", "material " + std::to_string(index));
-      const json extensions = object.value("extensions", json::object());
-      const json pbr = object.value("pbrMetallicRoughness", json::object());
+      const json& extensions = part_of(object, "extensions");
+      const json& pbr = part_of(object, "pbrMetallicRoughness");
       const auto glossy = extensions.find("KHR_materials_pbrSpecularGlossiness");
       const bool diffuse = glossy != extensions.end();
       const json& base = diffuse ? *glossy : pbr;
@@ -315,6 +340,9 @@ class Reader {
       if (normal.texture >= 0) normal_scale = gltf_number(object["normalTexture"], "scale", 1);
       if (object.value("alphaMode", "OPAQUE") != "OPAQUE")
         notes_.insert("transparent and cut-out materials are drawn opaque");
+      if (object.contains("emissiveTexture") ||
+          object.value("emissiveFactor", std::array<double, 3>{}) != std::array<double, 3>{})
+        notes_.insert("light that materials give is ignored");
       if (object.value("doubleSided", false))
         notes_.insert("both sides of double-sided materials are lit as their front");
     }
@@ -346,7 +374,7 @@ class Reader {
 
   // The first perspective camera of the scene.
   void read_camera(std::size_t node) {
-    const json& camera = document_.element("cameras", document_.element("nodes", node)["camera"].get<std::size_t>());
+    const json& camera = document_.element("cameras", gltf_integer(document_.element("nodes", node)["camera"]));
     if (model_.camera || !camera.contains("perspective")) return;
     const Camera result = placed_camera(camera["perspective"], world_[node]);
     const std::string fault = camera_fault(result, world_[node]);

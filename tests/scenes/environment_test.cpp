@@ -179,7 +179,7 @@ TEST_CASE("an .hdr file's mantissas are worth 2^(exponent - 136)") {
     }
 }
 
-TEST_CASE("an .hdr file's values are divided by the product of its exposures") {
+TEST_CASE("an .hdr file's values are divided by the product of its exposures and corrections") {
   TemporaryFolder folder;
   const std::string plain = flat_rgbe(8, 2, std::vector<std::uint8_t>(64, 130));
   const auto with = [&](const std::string& lines) {
@@ -189,6 +189,12 @@ TEST_CASE("an .hdr file's values are divided by the product of its exposures") {
   };
   const glm::vec3 value = load_environment(with("")).radiance[0];
   CHECK(load_environment(with("EXPOSURE=8\nEXPOSURE= 0.25\n")).radiance[0] == value / 2.0f);
+  CHECK(load_environment(with("EXPOSURE=2\nCOLORCORR=1 2 0.5\n")).radiance[0] ==
+        glm::vec3(value.x / 2, value.y / 4, value.z));
+  const std::string xyz = user_error([&] { load_environment(with("FORMAT=32-bit_rle_xyze\n")); });
+  CHECK(xyz.find("e.hdr: cannot be read as an image: its colours are CIE XYZ") != std::string::npos);
+  for (const char* bad : {"COLORCORR=1 2\n", "COLORCORR=1 0 1\n"})
+    CHECK(user_error([&] { load_environment(with(bad)); }).find("its header says COLORCORR=") != std::string::npos);
   for (const char* bad : {"EXPOSURE=0\n", "EXPOSURE=-1\n", "EXPOSURE=x\n", "EXPOSURE=inf\n"}) {
     const std::string message = user_error([&] { load_environment(with(bad)); });
     INFO(message);

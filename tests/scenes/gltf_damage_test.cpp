@@ -62,6 +62,25 @@ TEST_CASE("what is missing or of another type is named by its place in the file"
            std::pair<std::string, std::string>(refused([](json& r) { r["nodes"][0]["mesh"] = json::array(); }),
                                                "m.gltf: damaged: /nodes/0/mesh: type must be number, but is array"),
            std::pair<std::string, std::string>(
+               refused([](json& r) { r["accessors"][0]["bufferView"] = -1; }),
+               "m.gltf: damaged: /accessors/0/bufferView: must be an integer from 0 on, but is -1"),
+           std::pair<std::string, std::string>(
+               refused([](json& r) { r["meshes"][0]["primitives"][0]["mode"] = 4.5; }),
+               "m.gltf: damaged: /meshes/0/primitives/0/mode: must be an integer from 0 on, but is 4.5"),
+           std::pair<std::string, std::string>(refused([](json& r) { r["scene"] = 1099511627776; }),
+                                               "m.gltf: damaged: /scene: there is no 1099511627776"),
+           std::pair<std::string, std::string>(
+               refused([](json& r) { r["asset"]["minVersion"] = "2.9"; }),
+               "m.gltf: needs glTF 2.9 (asset.minVersion), which is not supported; export the model as 2.0"),
+           std::pair<std::string, std::string>(
+               refused([](json& r) { r["nodes"][0]["children"] = {0}, r.erase("scenes"), r.erase("scene"); }),
+               "m.gltf: damaged: every node is a child of another, so their tree has no root"),
+           std::pair<std::string, std::string>(refused([](json& r) { r["buffers"][0]["uri"] = ""; }),
+                                               "m.gltf: damaged: the URI of buffer 0 is empty"),
+           std::pair<std::string, std::string>(
+               refused([](json& r) { r["buffers"][0]["uri"] = std::string(5000, 'A'); }),
+               "m.gltf: damaged: the URI of buffer 0 has 5000 bytes"),
+           std::pair<std::string, std::string>(
                refused([](json& r) { r["bufferViews"][0]["byteStride"] = 4; }),
                "m.gltf: damaged: accessor 0 has elements of 12 bytes, but bufferView 0 a byteStride of 4"),
        }) {
@@ -70,6 +89,22 @@ TEST_CASE("what is missing or of another type is named by its place in the file"
   CHECK(user_error([&] {
           load_scene(folder.write("m.gltf", "{\"asset\": "));
         }).find("m.gltf: truncated or damaged JSON: parse error at line 1, column 11: ") != std::string::npos);
+}
+
+TEST_CASE("brackets that stand too deep in each other are refused, not followed") {
+  TemporaryFolder folder;
+  GltfWriter writer;
+  writer.mesh(writer.square());
+  writer.root["materials"] = {{{"extensions", "HERE"}}};
+  const auto with = [&](int depth) {
+    std::string text = writer.gltf("m.bin");
+    text.replace(text.find("\"HERE\""), 6,
+                 "{\"X\":" + std::string(std::size_t(depth), '[') + std::string(std::size_t(depth), ']') + "}");
+    return user_error([&] { load_scene(folder.write("deep.gltf", text)); });
+  };
+  folder.write("m.bin", writer.binary);
+  CHECK(with(150) == "");
+  CHECK(with(300000).find("deep.gltf: damaged: brackets stand 200 deep") != std::string::npos);
 }
 
 TEST_CASE("a URI with a control character in it is refused") {

@@ -1,7 +1,7 @@
 // Resolves #include and leaves #line behind, so that every later message can name the author's file and line.
 //
-// #version moves to the first line. #extension lines outside conditionals move up behind it: they must precede all
-// code, and a file that needs one may be included after some. An #include within #if counts where the preprocessor
+// #version stands before all code; #extension lines outside conditionals move up behind it: they must precede code too,
+// and a file that needs one may be included after some. An #include within #if counts where the preprocessor
 // reads it.
 #include <algorithm>
 #include <cctype>
@@ -137,6 +137,7 @@ class Resolver {
       } else {
         body_ += with_file_index(line.text, index) + '\n';
       }
+      code_seen_ = code_seen_ || line.code.find_first_not_of(" \t\v\f\n") != std::string::npos;
     }
   }
 
@@ -223,6 +224,9 @@ class Resolver {
 
   void version(const SourceLine& line, const std::string& where, bool main) {
     if (!main) throw UserError(where + "#version in an included file: move it to the main file");
+    if (!version_line_.empty()) throw UserError(where + "a second #version: leave one of them out");
+    if (code_seen_)
+      throw UserError(where + "#version must come first, before all but comments: move it to the top of the file");
     std::size_t digits = 0;
     while (digits < line.arguments.size() && std::isdigit(static_cast<unsigned char>(line.arguments[digits]))) ++digits;
     if (digits != 3) throw UserError(where + "#version wants a number such as 450, got \"" + line.arguments + "\"");
@@ -285,7 +289,7 @@ class Resolver {
   std::vector<std::string> identities_, files_;
   std::string version_line_, prologue_, body_;
   int version_ = 450, depth_ = 0, conditional_depth_ = 0, questions_ = 0;
-  bool es_ = false;
+  bool es_ = false, code_seen_ = false;
 };
 
 }  // namespace

@@ -170,6 +170,19 @@ TEST_CASE("#version comes first, #extension before all code") {
   CHECK(reported_position(text, "float b") == "0:9");
 }
 
+TEST_CASE("#version is refused behind code, directives and another #version") {
+  for (const std::string before : {"in vec2 v;\n", "#define X 1\n", "#ifdef GL_ES\n", "#include \"exact/dot.glsl\"\n",
+                                   "/* a comment */ #pragma optimize(on)\n"})
+    CHECK(error_of([&] { resolve_shader("t", before + "#version 330\n", "t.frag"); }) ==
+          "t.frag:2: #version must come first, before all but comments: move it to the top of the file");
+  CHECK(error_of([] { resolve_shader("t", "#version 330\nin vec2 v;\n#version 450\n", "t.frag"); }) ==
+        "t.frag:3: a second #version: leave one of them out");
+  CHECK(error_of([] { resolve_shader("t", "#version 330\n#version 330\n", "t.frag"); }) ==
+        "t.frag:2: a second #version: leave one of them out");
+  CHECK(resolve_shader("t", "\n/* a\n * comment */ // and\n\t\n  # version 330\nin vec2 v;\n", "t.frag").version ==
+        330);
+}
+
 TEST_CASE("a text without #version has none and counts as 450") {
   const ShaderSource source = resolve_shader("t", "void main() {}\n", "t.frag");
   CHECK(source.version == 450);

@@ -20,7 +20,7 @@ std::vector<const TechniqueInfo*> chosen_bases(const ExperimentOptions& options,
     const TechniqueInfo& basis = find_technique(name);
     const std::string reason = basis.is_basis ? why_not(basis) : "it is a technique, not a basis";
     if (!reason.empty()) throw UserError("basis " + name + " cannot be measured by this experiment: " + reason);
-    chosen.push_back(&basis);
+    if (std::find(chosen.begin(), chosen.end(), &basis) == chosen.end()) chosen.push_back(&basis);
   }
   if (options.bases.empty())
     for (const std::string& name : measured) chosen.push_back(&find_technique(name));

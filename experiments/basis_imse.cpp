@@ -4,15 +4,13 @@
 // elevation.
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/parallel.h"
 #include "experiments/chart.h"
 #include "experiments/hemisphere_fit.h"
-#include "lighting/linear_bases.h"
-#include "lighting/radiance_basis.h"
 
 namespace twinshade {
 namespace {
@@ -22,41 +20,14 @@ constexpr std::size_t kBlock = 100;  // signals at a time
 constexpr int kSignalRings = 24, kElevationStep = 5;
 
 struct Mean {
-  double value = 0, standard_error = 0;
+  double value = 0, standard_error = 0;  // NaN: of one value there is none
 };
 
-// Expectation over the impulses, E^2 - 2 c m + c G c integrated: each term over where it is smooth.
+// Expectation over the impulses.
 double impulse_error(const HemisphereFit& fit, const Impulses& impulses) {
-  const TechniqueInfo& basis = fit.basis();
-  const Matrix values = basis_matrix(basis, impulses.points);
-  const std::vector<double> radiance = radiance_basis(impulses.directions);
-  const std::vector<double> gram_values = gram_matrix(basis, Domain::hemisphere);
-  const Matrix gram = Eigen::Map<const Matrix>(gram_values.data(), basis.count, basis.count);
-  const Eigen::LLT<Matrix> factors(gram);
+  const std::vector<ImpulseFit> fits = fit_impulses(fit, impulses);
   double expectation = 0;
-  for (std::size_t i = 0; i < impulses.directions.size(); ++i) {
-    double energy = 0;
-    Eigen::VectorXd moments = Eigen::VectorXd::Zero(basis.count);
-    for (std::size_t p = i * impulses.points_each; p < (i + 1) * impulses.points_each; ++p) {
-      const double weighted = impulses.point_weights[p] * impulses.irradiance[p];
-      energy += weighted * impulses.irradiance[p];
-      for (int k = 0; k < basis.count; ++k) moments(k) += weighted * values(Eigen::Index(p), k);
-    }
-    Eigen::VectorXd coefficients;
-    if (fit.fits_samples()) {
-      coefficients = factors.solve(moments);
-    } else {
-      const auto light = radiance.begin() + std::ptrdiff_t(i * kRadianceCount);
-      const std::vector<double> list = fit.from_radiance({light, light + kRadianceCount}, impulses.directions[i].z);
-      coefficients = Eigen::Map<const Eigen::VectorXd>(list.data(), basis.count);
-    }
-    double error = energy;
-    for (int k = 0; k < basis.count; ++k) {
-      error -= 2 * coefficients(k) * moments(k);
-      for (int m = 0; m < basis.count; ++m) error += coefficients(k) * gram(k, m) * coefficients(m);
-    }
-    expectation += impulses.weights[i] * std::max(error, 0.0);
-  }
+  for (std::size_t i = 0; i < fits.size(); ++i) expectation += impulses.weights[i] * fits[i].squared_error;
   return expectation;
 }
 
@@ -82,7 +53,8 @@ Mean mean_of(const std::vector<double>& values) {
   for (const double value : values) sum += value;
   const double count = double(values.size()), mean = sum / count;
   for (const double value : values) squares += (value - mean) * (value - mean);
-  return {mean, values.size() > 1 ? std::sqrt(squares / (count - 1) / count) : 0};
+  return {mean,
+          values.size() > 1 ? std::sqrt(squares / (count - 1) / count) : std::numeric_limits<double>::quiet_NaN()};
 }
 
 // Of each fit, over random signals of one kind. Blocks are independent and land in their own places.
@@ -164,7 +136,8 @@ ExperimentResult run_basis_imse(const ExperimentOptions& options) {
     const std::string name(bases[b]->name);
     const std::vector<std::string> labels{"S1", "S2", "S3"};
     for (std::size_t s = 0; s < labels.size(); ++s)
-      result.rows.add({name, labels[s], signals[s][b].value, s == 0 ? Cell() : Cell(signals[s][b].standard_error)});
+      result.rows.add(
+          {name, labels[s], signals[s][b].value, s == 0 ? Cell() : number_cell(signals[s][b].standard_error)});
     sweep.series.push_back({name, {}, {}, false});
     for (std::size_t k = 0; k + 1 < suns.size(); ++k) {
       const int degrees = int(k) * kElevationStep;
@@ -175,6 +148,8 @@ ExperimentResult run_basis_imse(const ExperimentOptions& options) {
   }
   result.notes.push_back(
       "sun_E: one unit impulse E degrees above the horizon. S1 and suns by quadrature: no standard error.");
+  if (options.samples == 1)
+    result.notes.push_back("S2, S3: one signal has no standard error; --samples 2 or more gives one");
   if (options.pictures && !bases.empty()) {
     result.pictures.push_back({"basis-imse", error_chart(fits, signals, {"S1", "S2", "S3"})});
     result.pictures.push_back({"basis-imse-sun", draw(sweep)});

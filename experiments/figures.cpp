@@ -92,6 +92,7 @@ bool has_own_functions(const TechniqueInfo& basis) {
 struct Signal {
   std::string label;
   SignalBlock samples, shown;  // over the quadrature and over the picture
+  Impulses impulse = {};       // where the signal is a single one
 };
 
 std::vector<Signal> example_signals(std::uint64_t seed, const std::vector<glm::dvec3>& points,
@@ -99,8 +100,8 @@ std::vector<Signal> example_signals(std::uint64_t seed, const std::vector<glm::d
   const TechniqueInfo& harmonics = find_technique("sh5");
   const Matrix at_points = basis_matrix(harmonics, points), at_pixels = basis_matrix(harmonics, pixels);
   std::vector<Signal> signals;
-  signals.push_back(
-      {fmt::format("sun at {}°", kSunElevation), sun_signal(kSunElevation, points), sun_signal(kSunElevation, pixels)});
+  signals.push_back({fmt::format("sun at {}°", kSunElevation), sun_signal(kSunElevation, points),
+                     sun_signal(kSunElevation, pixels), sun_impulse(kSunElevation)});
   signals.push_back({"16 impulses", random_signals(SignalKind::impulses, seed, 0, 1, points, at_points),
                      random_signals(SignalKind::impulses, seed, 0, 1, pixels, at_pixels)});
   signals.push_back({"random SH", random_signals(SignalKind::harmonics, seed, 0, 1, points, at_points),
@@ -118,6 +119,13 @@ double squared_error(const HemisphereFit& fit, const Matrix& coefficients, const
     error += weights[p] * residual * residual;
   }
   return error;
+}
+
+// Over the quadrature, and of a single impulse over the lune that it lights, as basis-imse has it.
+ImpulseFit fit_signal(const HemisphereFit& fit, const Signal& signal, const std::vector<double>& weights) {
+  if (signal.impulse.points_each > 0) return fit_impulses(fit, signal.impulse).front();
+  const Matrix coefficients = fit.coefficients(signal.samples);
+  return {coefficients.col(0), squared_error(fit, coefficients, signal, weights)};
 }
 
 Drawing signal_figure(const std::vector<const TechniqueInfo*>& bases, std::uint64_t seed, Rows& rows) {
@@ -144,12 +152,11 @@ Drawing signal_figure(const std::vector<const TechniqueInfo*>& bases, std::uint6
     const Matrix functions = basis_matrix(*basis, canvas.directions);
     tiles.push_back({fmt::format("{} ({})", basis->name, basis->count), {}});
     for (std::size_t s = 0; s < signals.size(); ++s) {
-      const Matrix coefficients = fit.coefficients(signals[s].samples);
+      const auto [coefficients, error] = fit_signal(fit, signals[s], points.weights);
       std::vector<double> values(canvas.directions.size(), 0.0);
       for (std::size_t p = 0; p < values.size(); ++p)
         for (Eigen::Index i = 0; i < coefficients.rows(); ++i)
-          values[p] += coefficients(i, 0) * functions(Eigen::Index(p), i);
-      const double error = squared_error(fit, coefficients, signals[s], points.weights);
+          values[p] += coefficients(i) * functions(Eigen::Index(p), i);
       rows.add({std::string("figures-signals"), std::string(basis->name), signals[s].label, error});
       tiles.back().tiles.push_back(tile(values, largest[s], "ISE " + short_number(error)));
     }

@@ -3,6 +3,7 @@
 // section 4.1). 0 where every harmonic up to the order lies in the span, sqrt(count) where none does. Integrals over
 // the sphere; bases of the hemisphere have the condition number of their Gram matrix there, and no norm.
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 
 #include "experiments/bases.h"
@@ -54,7 +55,8 @@ ExperimentResult run_frobenius(const ExperimentOptions& options) {
               {"SH2", "SH3", "SH4", "SH5", "condition"},
               {},
               true};
-  for (const TechniqueInfo* basis : chosen_bases(options, why_not)) {
+  const std::vector<const TechniqueInfo*> bases = chosen_bases(options, why_not);
+  for (const TechniqueInfo* basis : bases) {
     options.progress(std::string(basis->name));
     const Domain domain = is_hemispherical(*basis) ? Domain::hemisphere : Domain::sphere;
     const std::vector<double> gram = gram_matrix(*basis, domain);
@@ -77,7 +79,8 @@ ExperimentResult run_frobenius(const ExperimentOptions& options) {
     }
     map.values.push_back(condition);
   }
-  result.notes.push_back("bases of the hemisphere have no norm: the condition number is of their Gram matrix there");
+  if (std::any_of(bases.begin(), bases.end(), [](const TechniqueInfo* basis) { return is_hemispherical(*basis); }))
+    result.notes.push_back("bases of the hemisphere have no norm: the condition number is of their Gram matrix there");
   if (options.pictures && !map.rows.empty()) result.pictures.push_back({"frobenius", draw(map)});
   return result;
 }

@@ -1,7 +1,9 @@
 #include "experiments/hemisphere_fit.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 
+#include "lighting/linear_bases.h"
 #include "lighting/radiance_basis.h"
 
 namespace twinshade {
@@ -51,6 +53,41 @@ std::vector<double> HemisphereFit::from_radiance(const std::vector<double>& radi
   projector_.project(grey.data(), coefficients.data());
   for (std::size_t i = 0; i < coefficients.size(); i += 3) one.push_back(coefficients[i]);
   return one;
+}
+
+// E^2 - 2 c m + c G c integrated: each term over where it is smooth.
+std::vector<ImpulseFit> fit_impulses(const HemisphereFit& fit, const Impulses& impulses) {
+  const TechniqueInfo& basis = fit.basis();
+  const Matrix values = basis_matrix(basis, impulses.points);
+  const std::vector<double> radiance = radiance_basis(impulses.directions);
+  const std::vector<double> gram_values = gram_matrix(basis, Domain::hemisphere);
+  const Matrix gram = Eigen::Map<const Matrix>(gram_values.data(), basis.count, basis.count);
+  const Eigen::LLT<Matrix> factors(gram);
+  std::vector<ImpulseFit> fits;
+  for (std::size_t i = 0; i < impulses.directions.size(); ++i) {
+    double energy = 0;
+    Eigen::VectorXd moments = Eigen::VectorXd::Zero(basis.count);
+    for (std::size_t p = i * impulses.points_each; p < (i + 1) * impulses.points_each; ++p) {
+      const double weighted = impulses.point_weights[p] * impulses.irradiance[p];
+      energy += weighted * impulses.irradiance[p];
+      for (int k = 0; k < basis.count; ++k) moments(k) += weighted * values(Eigen::Index(p), k);
+    }
+    Eigen::VectorXd coefficients;
+    if (fit.fits_samples()) {
+      coefficients = factors.solve(moments);
+    } else {
+      const auto light = radiance.begin() + std::ptrdiff_t(i * kRadianceCount);
+      const std::vector<double> list = fit.from_radiance({light, light + kRadianceCount}, impulses.directions[i].z);
+      coefficients = Eigen::Map<const Eigen::VectorXd>(list.data(), basis.count);
+    }
+    double error = energy;
+    for (int k = 0; k < basis.count; ++k) {
+      error -= 2 * coefficients(k) * moments(k);
+      for (int m = 0; m < basis.count; ++m) error += coefficients(k) * gram(k, m) * coefficients(m);
+    }
+    fits.push_back({std::move(coefficients), std::max(error, 0.0)});
+  }
+  return fits;
 }
 
 }  // namespace twinshade

@@ -30,4 +30,12 @@ class HemisphereFit {
   Matrix functions_, solution_;  // solution [function][point]: least squares over the points
 };
 
+// What a basis makes of one impulse, and the integral of the squared error over the hemisphere. All integrals run over
+// the lune that the impulse lights: its horizon is a kink, which a quadrature of the hemisphere smears.
+struct ImpulseFit {
+  Eigen::VectorXd coefficients;
+  double squared_error = 0;
+};
+std::vector<ImpulseFit> fit_impulses(const HemisphereFit& fit, const Impulses& impulses);
+
 }  // namespace twinshade

@@ -47,30 +47,32 @@ LineQuadrature root_safe_line(int points) {
   return line;
 }
 
-// Adds impulses at one elevation (radians), from kAzimuths sides. In the lune n = cos(psi) a + sin(psi) (cos(beta) h +
-// sin(beta) z), with a horizontal, h the horizontal part of the light's direction and z up: psi in (0, pi), beta in
-// (0, pi/2 + elevation).
-void add_impulses(Impulses& impulses, double elevation, double weight) {
+// Adds an impulse (radians). In the lune n = cos(psi) a + sin(psi) (cos(beta) h + sin(beta) z), with a horizontal, h
+// the horizontal part of the light's direction and z up: psi in (0, pi), beta in (0, pi/2 + elevation).
+void add_impulse(Impulses& impulses, double elevation, double azimuth, double weight) {
   static const LineQuadrature across = root_safe_line(kAcross), along = root_safe_line(kAlong);
   const double widest = kPi / 2 + elevation;
   const double sine = portable::sin(elevation), cosine = portable::cos(elevation);
-  for (int azimuth = 0; azimuth < kAzimuths; ++azimuth) {
-    const double angle = 2 * kPi * (azimuth + 0.5) / kAzimuths;
-    const glm::dvec3 h(portable::cos(angle), portable::sin(angle), 0), a(-h.y, h.x, 0), up(0, 0, 1);
-    const glm::dvec3 light = h * cosine + up * sine;
-    impulses.directions.push_back(light);
-    impulses.weights.push_back(weight / kAzimuths);
-    for (int i = 0; i < kAlong; ++i)
-      for (int k = 0; k < kAcross; ++k) {
-        const double psi = kPi * along.nodes[i], beta = widest * across.nodes[k];
-        const double sin_psi = portable::sin(psi);
-        const glm::dvec3 n = a * portable::cos(psi) + (h * portable::cos(beta) + up * portable::sin(beta)) * sin_psi;
-        impulses.points.push_back(n);
-        impulses.point_weights.push_back(along.weights[i] * kPi * across.weights[k] * widest * sin_psi);
-        impulses.irradiance.push_back(glm::dot(n, light));
-      }
-  }
+  const glm::dvec3 h(portable::cos(azimuth), portable::sin(azimuth), 0), a(-h.y, h.x, 0), up(0, 0, 1);
+  const glm::dvec3 light = h * cosine + up * sine;
+  impulses.directions.push_back(light);
+  impulses.weights.push_back(weight);
+  for (int i = 0; i < kAlong; ++i)
+    for (int k = 0; k < kAcross; ++k) {
+      const double psi = kPi * along.nodes[i], beta = widest * across.nodes[k];
+      const double sin_psi = portable::sin(psi);
+      const glm::dvec3 n = a * portable::cos(psi) + (h * portable::cos(beta) + up * portable::sin(beta)) * sin_psi;
+      impulses.points.push_back(n);
+      impulses.point_weights.push_back(along.weights[i] * kPi * across.weights[k] * widest * sin_psi);
+      impulses.irradiance.push_back(glm::dot(n, light));
+    }
   impulses.points_each = std::size_t(kAcross) * kAlong;
+}
+
+// The same from kAzimuths sides, of `weight` together.
+void add_impulses(Impulses& impulses, double elevation, double weight) {
+  for (int k = 0; k < kAzimuths; ++k)
+    add_impulse(impulses, elevation, 2 * kPi * (k + 0.5) / kAzimuths, weight / kAzimuths);
 }
 
 }  // namespace
@@ -147,6 +149,12 @@ Impulses uniform_impulses() {
 Impulses impulses_at_elevation(double degrees) {
   Impulses impulses;
   add_impulses(impulses, degrees * kPi / 180, 1);
+  return impulses;
+}
+
+Impulses sun_impulse(double degrees) {
+  Impulses impulses;
+  add_impulse(impulses, degrees * kPi / 180, 0, 1);
   return impulses;
 }
 

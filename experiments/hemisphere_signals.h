@@ -40,5 +40,7 @@ struct Impulses {
 Impulses uniform_impulses();
 // At one elevation above the horizon, in degrees, from all around.
 Impulses impulses_at_elevation(double degrees);
+// The one of sun_signal.
+Impulses sun_impulse(double degrees);
 
 }  // namespace twinshade

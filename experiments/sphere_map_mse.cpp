@@ -52,9 +52,19 @@ std::vector<glm::dvec3> random_directions(std::uint64_t seed, std::size_t points
   return directions;
 }
 
+bool is_octahedral(const SphereMapInfo& map) { return map.layers == 1; }
+
+// Sorted, for rows that do not repeat.
+void each_once(std::vector<int>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
 std::vector<StoredMap> stored_maps(const ExperimentOptions& options, const TechniqueInfo& harmonics) {
   std::vector<const SphereMapInfo*> maps;
-  for (const std::string& name : options.maps) maps.push_back(&find_sphere_map(name));
+  for (const std::string& name : options.maps)
+    if (const SphereMapInfo* map = &find_sphere_map(name); std::find(maps.begin(), maps.end(), map) == maps.end())
+      maps.push_back(map);
   if (maps.empty())
     for (const SphereMapInfo& map : sphere_maps()) maps.push_back(&map);
   std::vector<int> widths = options.widths;
@@ -64,9 +74,8 @@ std::vector<StoredMap> stored_maps(const ExperimentOptions& options, const Techn
   for (const SphereMapInfo* map : maps) {
     std::vector<int> of_map;
     // An octahedron folded along its texels has texels on its corners where the width is odd
-    for (const int width : widths) of_map.push_back(map->layers == 1 ? width | 1 : width);
-    std::sort(of_map.begin(), of_map.end());
-    of_map.erase(std::unique(of_map.begin(), of_map.end()), of_map.end());
+    for (const int width : widths) of_map.push_back(is_octahedral(*map) ? width | 1 : width);
+    each_once(of_map);
     for (const int width : of_map) {
       stored.push_back({SphereMapGrid(*map, width), {}});
       const std::vector<double> exact = basis_values(harmonics, stored.back().grid.directions());
@@ -217,6 +226,7 @@ ExperimentResult run_sphere_map_mse(const ExperimentOptions& options) {
   for (const int order : orders)
     if (order < 1 || order > kHighestOrder)
       throw UserError("order " + std::to_string(order) + " is not within 1 to " + std::to_string(kHighestOrder));
+  each_once(orders);
   const TechniqueInfo& harmonics = find_technique("sh6");
   const bool drawn = !options.on.empty();
   const std::size_t points = std::size_t(options.samples > 0 ? options.samples
@@ -270,7 +280,8 @@ ExperimentResult run_sphere_map_mse(const ExperimentOptions& options) {
       for (std::size_t s = 0; s < kStorageCount; ++s) add_rows(maps[m], s, sums[m * kStorageCount + s], {});
   }
   result.notes.push_back("used_texels: stored ones less those that look where another one does (equators, folds)");
-  result.notes.push_back("octahedral maps have odd widths: even ones are raised by one");
+  if (std::any_of(maps.begin(), maps.end(), [](const StoredMap& map) { return is_octahedral(map.grid.map()); }))
+    result.notes.push_back("octahedral maps have odd widths: even ones are raised by one");
   if (options.pictures)
     for (const int order : orders)
       result.pictures.push_back({"sphere-map-mse-order-" + std::to_string(order), chart(result.rows, order, drawn)});

@@ -92,6 +92,39 @@ TEST_CASE("a sun at 40 degrees is worse for H6 than one at the horizon") {
   CHECK(table.at({"h6", "sun_0"}).first == test::relative(.0119, 4e-3));
 }
 
+TEST_CASE("figures has the error of its sun that basis-imse has, and the closed form of l <= 1") {
+  ExperimentOptions options;
+  options.pictures = false;
+  options.samples = 1;
+  options.bases = {"hl2", "sh2", "sh5"};
+  const Table table = table_of(run_basis_imse(options));
+  const Rows rows = run_figures(options).rows;
+  int suns = 0;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    if (std::get<std::string>(rows.at(r, "signal")) != "sun at 40°") continue;
+    ++suns;
+    const std::string basis = std::get<std::string>(rows.at(r, "basis"));
+    CAPTURE(basis);
+    CHECK(rows.number(r, "ise") == test::relative(table.at({basis, "sun_40"}).first, 1e-9));
+    // Of even bands, an error over half the sphere is half of that over all of it
+    if (basis == "sh2") CHECK(rows.number(r, "ise") == test::relative(kPi / 24, 1e-6));
+  }
+  CHECK(suns == 3);
+}
+
+TEST_CASE("one random signal has no standard error, which a note says") {
+  ExperimentOptions options;
+  options.pictures = false;
+  options.bases = {"h4", "h4"};
+  for (const int samples : {1, 2}) {
+    options.samples = samples;
+    const ExperimentResult result = run_basis_imse(options);
+    CHECK(result.rows.size() == 3 + 19);  // signals and suns; a basis that is named twice is one
+    CHECK(std::isnan(table_of(result).at({"h4", "S2"}).second) == (samples == 1));
+    CHECK((result.notes.back().find("no standard error; --samples 2") != std::string::npos) == (samples == 1));
+  }
+}
+
 TEST_CASE("errors are the same on one, two and seven threads") {
   ExperimentOptions options;
   options.samples = 450;  // not a multiple of the block

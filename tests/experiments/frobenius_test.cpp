@@ -61,6 +61,11 @@ TEST_CASE("what each basis misses of spherical harmonics, and the condition of i
       if (technique.name == basis) CHECK(seen[basis] == 4);
 }
 
+TEST_CASE("that bases of the hemisphere have no norm is noted where there are some") {
+  CHECK(run_frobenius({.bases = {"sh3"}, .pictures = false}).notes.empty());
+  CHECK(run_frobenius({.bases = {"sh3", "h4"}, .pictures = false}).notes.size() == 1);
+}
+
 TEST_CASE("the heat map has a row for each basis of the sphere") {
   const ExperimentResult result = run_frobenius({.bases = {"sh3", "h4"}});
   REQUIRE(result.pictures.size() == 1);

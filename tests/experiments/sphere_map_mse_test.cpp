@@ -79,6 +79,20 @@ TEST_CASE("errors of sphere maps do not depend on the number of threads") {
   set_thread_count(0);
 }
 
+TEST_CASE("what is named twice is measured once, and odd widths are spoken of where there are octahedra") {
+  ExperimentOptions options;
+  options.samples = 100;
+  options.pictures = false;
+  options.widths = {4, 4};
+  options.orders = {6, 3, 3};
+  for (const char* map : {"cube", "octahedral"}) {
+    options.maps = {map, map};
+    const ExperimentResult result = run_sphere_map_mse(options);
+    CHECK(result.rows.size() == 2 * 3);  // orders, storages
+    CHECK((result.notes.back().find("octahedral") != std::string::npos) == (map == std::string("octahedral")));
+  }
+}
+
 TEST_CASE("sphere-map-mse names what it cannot measure") {
   ExperimentOptions options;
   options.orders = {7};

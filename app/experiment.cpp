@@ -66,7 +66,11 @@ int ExperimentVerb::run() {
   Provenance provenance(common);
   Machines machines(CpuOptions(), true);
   options.draw = [&](const std::string& machine, const Bundle& bundle, const ShaderSource& source) {
-    Frame frame = machines.draw(machine, bundle, source, DrawOptions());
+    DrawOptions with_attributes;
+    with_attributes.capture_attributes = true;
+    const Frame covered =  // by the cpu, for softpipe to shade
+        machine == "softpipe" ? machines.draw("cpu", bundle, source, with_attributes) : Frame();
+    Frame frame = machines.draw(machine, bundle, source, DrawOptions(), &covered);
     provenance.add(machine, frame);
     return frame;
   };
@@ -117,11 +121,8 @@ Verb add_experiment(CLI::App& app) {
       ->type_name("M,...");
   command->add_flag("--driver-filters", verb->options.driver_filters,
                     "with --on: read the maps by the drivers' own filters as well, cubes with seams and without");
-  command
-      ->add_option("--samples", verb->options.samples,
-                   "random signals or points (default: as many as the published figures need)")
-      ->check(CLI::Range(1, 100000000))
-      ->type_name("N");
+  add_whole_option(*command, "--samples", "random signals or points (default: as many as the published figures need)",
+                   1, 100000000, [verb = verb.get()](std::uint64_t samples) { verb->options.samples = int(samples); });
   command->add_flag("--relative", verb->options.relative, "errors relative to the signal as well");
   command->add_flag("--clamp-radiance", verb->options.clamp_radiance,
                     "accept probes with NaN, infinite, negative or too large (1e30) radiance");
@@ -129,7 +130,9 @@ Verb add_experiment(CLI::App& app) {
                              "--relative", "--clamp-radiance"})
     verb->choosing.push_back(command->get_option(option));
   command->add_flag("--csv", verb->csv, "print comma-separated values instead of a table");
-  command->add_option("-o", verb->folder, "write NAME.csv, NAME.svg, NAME.png and further pictures into this folder")
+  command
+      ->add_option("-o,--output", verb->folder,
+                   "write NAME.csv, NAME.svg, NAME.png and further pictures into this folder")
       ->type_name("DIR");
   add_common_options(*command, verb->common);
   return {command, [verb] { return verb->run(); }};

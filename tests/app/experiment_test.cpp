@@ -24,6 +24,40 @@ TEST_CASE("sphere maps are read alike on the CPU and by OpenGL, to the bit") {
   for (const auto& row : rows) CHECK_MESSAGE(row["values_differ"] == 0, row.dump());
 }
 
+TEST_CASE("softpipe reads sphere maps where the CPU covers, beside the CPU or alone, and by its own filters") {
+  if (const std::string missing = why_missing("softpipe"); !missing.empty()) {
+    MESSAGE("not tested: " << missing);
+    return;
+  }
+  const std::vector<std::string> small{
+      "experiment", "sphere-map-mse", "--map", "cube", "--map-width", "4", "--order", "3,3", "--samples",
+      "100",        "--json",         "-"};
+  const auto rows = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments = small;
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Run run = run_twinshade(arguments);
+    REQUIRE_MESSAGE(run.code == 0, run.err);
+    return run.json()["rows"];
+  };
+  const auto both = rows({"--on", "cpu,softpipe"});
+  CHECK(both.size() == 2 * 3);  // three storages; the order that is named twice is one
+  for (const auto& row : both) CHECK_MESSAGE(row["values_differ"] == 0, row.dump());
+  const auto alone = rows({"--on", "softpipe", "--driver-filters"});
+  CHECK(alone.size() == 3 * 3);  // three filters
+  CHECK(alone[0]["mse"] == both[0]["mse"]);
+}
+
+TEST_CASE("the folder of an experiment may be named by --output, and help has no words of the parser") {
+  const Folder folder;
+  const Run run = run_twinshade({"experiment", "frobenius", "--basis", "sh2", "--output", folder / "."});
+  CHECK_MESSAGE(run.code == 0, run.err);
+  CHECK(std::filesystem::exists(folder / "frobenius.csv"));
+  for (const char* verb : {"experiment", "eval"}) {
+    const std::string help = run_twinshade({verb, "--help"}).out;
+    for (const char* raw : {":INT", "{github}"}) CHECK_MESSAGE(help.find(raw) == std::string::npos, help);
+  }
+}
+
 TEST_CASE("drivers filter flat maps as written out but for rounding, and cubes with or without seams") {
   if (!why_missing("egl").empty()) return;
   const Run run = run_twinshade({"experiment", "sphere-map-mse", "--on", "cpu,egl", "--driver-filters", "--map",

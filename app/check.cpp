@@ -29,6 +29,7 @@ Backend backend_of(const std::string& name) {
 }
 
 struct CheckVerb {
+  CLI::App* command = nullptr;
   CommonOptions common;
   CpuOptions cpu;
   CheckOptions options;
@@ -43,6 +44,7 @@ struct CheckVerb {
     apply(common);
     const Output output(common, junit);
     require_backends(on);
+    require_machine_options(*command, on);
     if (on.size() < 2) throw UserError("--on " + on[0] + ": name at least two backends to compare");
     options.on.clear();
     for (const std::string& name : on) {
@@ -144,6 +146,7 @@ Verb add_check(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("check", "your GLSL on every machine over generated inputs, compared bit by bit");
   const auto verb = std::make_shared<CheckVerb>();
+  verb->command = command;
   command->add_option("shaders", verb->shaders, "fragment shader files")->type_name("SHADER...")->required();
   verb->on_given = command
                        ->add_option("--on", verb->on,
@@ -165,7 +168,7 @@ Verb add_check(CLI::App& app) {
   add_annotate_option(*command, verb->annotate);
   command->add_flag("--no-timing", verb->no_timing, "do not measure nanoseconds");
   command->add_flag("--watch", verb->watch, "check again whenever a file is saved");
-  add_cpu_options(*command, verb->cpu);
+  add_number_options(*command, verb->cpu);
   add_fma_option(*command, verb->evaluator_options.host_fma);
   add_time_limit_option(*command, verb->evaluator_options.time_limit_seconds);
   add_common_options(*command, verb->common);

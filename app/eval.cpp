@@ -71,6 +71,7 @@ Number number_named(const std::string& name) {
 }
 
 struct EvalVerb {
+  CLI::App* command = nullptr;
   CommonOptions common;
   std::string shader, cases_file, junit_file, annotate;
   std::vector<std::string> include_folders;
@@ -82,6 +83,7 @@ struct EvalVerb {
     apply(common);
     const Output output(common, junit_file);
     require_backends(backends);
+    require_machine_options(*command, backends);
     const std::vector<EvaluationTarget> targets = named_targets();
     std::error_code code;
     const bool many = fs::is_directory(shader, code);
@@ -227,6 +229,7 @@ struct EvalVerb {
 Verb add_eval(CLI::App& app) {
   CLI::App* command = app.add_subcommand("eval", "shaders over tables of inputs, against expected outputs");
   const auto verb = std::make_shared<EvalVerb>();
+  verb->command = command;
   command->add_option("shader", verb->shader, "fragment shader, or a folder of NAME.frag and NAME.json")
       ->type_name("SHADER or DIR")
       ->required();

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <utility>
 
+#include "app/subject.h"
 #include "base/error.h"
 #include "base/names.h"
 #include "base/parallel.h"
@@ -119,6 +120,46 @@ bool parse_switch(const std::string& option, const std::string& text) {
   return text == "on";
 }
 
+// Options that only some techniques read.
+struct ReadByTechniques {
+  const char* option;
+  bool (*reads)(const TechniqueInfo&);
+};
+bool has_components(const TechniqueInfo& technique) { return technique.weights == VisibilityWeights::pca; }
+constexpr ReadByTechniques kReadByTechniques[] = {
+    {"--map", reads_sphere_map}, {"--order", has_components}, {"--pca-metric", has_components}};
+
+bool is_given(const CLI::App& command, const char* option) {
+  const CLI::Option* there = command.get_option_no_throw(option);
+  return there && there->count() > 0;
+}
+
+// What none of the chosen techniques reads is refused. A user's shader may name the coefficients of any.
+void require_read_by_technique(const CLI::App& command, const ShadingOptions& options) {
+  const std::vector<std::string>& names = options.techniques;
+  if (!options.shader.empty() || std::find(names.begin(), names.end(), "all") != names.end()) return;
+  for (const auto& [option, reads] : kReadByTechniques) {
+    if (!is_given(command, option) || std::any_of(names.begin(), names.end(), [reads = reads](const auto& name) {
+          return name != kReferenceTechnique && reads(find_technique(name));
+        }))
+      continue;
+    std::string readers;
+    for (const TechniqueInfo& technique : techniques())
+      if (reads(technique)) readers += (readers.empty() ? "" : ", ") + std::string(technique.name);
+    throw UserError(fmt::format("{}: not read by {}: leave it out, or draw with a technique that reads it: {}", option,
+                                fmt::join(names, ","), readers));
+  }
+}
+
+// A user's shader names what it reads its light from; from vertices or lightmaps is the same text.
+void require_light_of_shader(const ShadingOptions& options) {
+  if (options.shader.empty() || (options.light != LightSource::volume && options.light != LightSource::all)) return;
+  throw UserError(
+      fmt::format("--light {}: a shader of your own says itself what it reads, coefficients_BASIS or volume_BASIS: "
+                  "leave it out",
+                  kLightNames[std::size_t(options.light)]));
+}
+
 // An option whose text is parsed by `parse`, which throws UserError.
 void add_parsed(CLI::App& command, const std::string& name, const std::string& shape, const std::string& description,
                 std::function<void(const std::string&)> parse) {
@@ -151,8 +192,13 @@ void add_subject_options(CLI::App& command, SubjectOptions& options) {
   add_parsed(command, "--env-rotation", "DEG", "turns the environment about the vertical",
              given("--env-rotation",
                    [&](const std::string& text) { options.rotation_degrees = parse_real("--env-rotation", text); }));
-  command.add_flag("--clamp-radiance", options.clamp_radiance,
-                   "accept environments with NaN, infinite, negative or too large (1e30) radiance");
+  command.add_flag_callback(
+      "--clamp-radiance",
+      [&options] {
+        options.given.emplace_back("--clamp-radiance");
+        options.clamp_radiance = true;
+      },
+      "accept environments with NaN, infinite, negative or too large (1e30) radiance");
   add_parsed(command, "--size", "WxH", "size of the frame (default: 1280x800)",
              given("--size", [&](const std::string& text) { parse_size(text, options.width, options.height); }));
   add_parsed(command, "--camera", "EYE,TARGET,FOV",
@@ -224,6 +270,10 @@ void add_technique_option(CLI::App& command, ShadingOptions& options, const std:
   command.add_option("--map", options.maps, "sphere maps of techniques that look up tables, or all (default: cube)")
       ->delimiter(',')
       ->type_name("M,...");
+  command.parse_complete_callback([&command, &options] {
+    require_read_by_technique(command, options);
+    require_light_of_shader(options);
+  });
 }
 
 void add_light_option(CLI::App& command, ShadingOptions& options) {
@@ -265,20 +315,25 @@ void add_attribute_modes_option(CLI::App& command, std::vector<AttributeMode>& m
 }
 
 void add_annotate_option(CLI::App& command, std::string& service) {
-  command
-      .add_option("--annotate", service, "name what did not pass in the form that a service shows beside the source")
-      ->check(CLI::IsMember({"github"}))
-      ->type_name("github");
+  add_parsed(command, "--annotate", "github",
+             "name what did not pass in the form that a service shows beside the source", [&](const std::string& text) {
+               if (text != "github") throw UserError("--annotate " + text + ": must be github");
+               service = text;
+             });
 }
 
 void add_fma_option(CLI::App& command, bool& host_fma) {
-  add_parsed(command, "--gl-fma", "on|off", "fused multiply-add within llvmpipe (default: on)",
+  add_parsed(command, "--gl-fma", "on|off",
+             "fused multiply-add within llvmpipe (default: on); off leaves it SSE4.1, whose vectors are of 128 bits: "
+             "slower",
              [&](const std::string& text) { host_fma = parse_switch("--gl-fma", text); });
-  command.add_flag_callback(
-      "--no-host-fma", [&host_fma] { host_fma = false; }, "short for --gl-fma off");
+  command
+      .add_flag_callback(
+          "--no-host-fma", [&host_fma] { host_fma = false; }, "short for --gl-fma off")
+      ->excludes(command.get_option("--gl-fma"));
 }
 
-void add_cpu_options(CLI::App& command, CpuOptions& options, const std::string& isa_default) {
+void add_number_options(CLI::App& command, CpuOptions& options, const std::string& isa_default) {
   add_parsed(command, "--isa", "baseline|avx2|avx512",
              "instruction set of the CPU's shading (default: " + isa_default + ")",
              [&](const std::string& text) { options.isa = Isa(index_of(kIsaNames, "instruction set", text)); });
@@ -288,6 +343,11 @@ void add_cpu_options(CLI::App& command, CpuOptions& options, const std::string& 
     if (text != "4" && text != "8" && text != "16") throw UserError("--lanes " + text + ": must be 4, 8 or 16");
     options.number = parse_number("lanes" + text);
   });
+  command.get_option("--lanes")->excludes(command.get_option("--number"));
+}
+
+void add_cpu_options(CLI::App& command, CpuOptions& options, const std::string& isa_default) {
+  add_number_options(command, options, isa_default);
   add_parsed(command, "--tile", "16|32|64|128",
              "tile size of the CPU (default: 128 where threads have many such tiles, else 64)",
              [&](const std::string& text) {
@@ -295,7 +355,6 @@ void add_cpu_options(CLI::App& command, CpuOptions& options, const std::string& 
                  throw UserError("--tile " + text + ": must be 16, 32, 64 or 128");
                parse_whole(text, options.tile_size);
              });
-  command.get_option("--lanes")->excludes(command.get_option("--number"));
 }
 
 void add_count_option(CLI::App& command, const std::string& name, int& count, const std::string& description) {
@@ -329,6 +388,22 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
              [&](const std::string& text) { options.exposure = parse_real("--exposure", text); });
   add_parsed(command, "--tonemap", "none|reinhard|aces", "tone curve of PNG pictures (default: reinhard)",
              [&](const std::string& text) { options.tonemap = Tonemap(index_of(kTonemapNames, "tone curve", text)); });
+  for (const char* option : {"--exposure", "--tonemap"})
+    command.get_option(option)->needs(command.get_option("--output"));
+}
+
+void require_machine_options(const CLI::App& command, const std::vector<std::string>& machines) {
+  const auto has = [&](const char* name) {
+    return std::find(machines.begin(), machines.end(), name) != machines.end();
+  };
+  const auto require = [&](bool meant, const char* option, const char* owner, const char* name) {
+    if (!meant && is_given(command, option))
+      throw UserError(fmt::format("{}: {} alone has it; leave it out, or name {} in --on", option, owner, name));
+  };
+  for (const char* option : {"--isa", "--number", "--lanes", "--tile"}) require(has("cpu"), option, "the cpu", "cpu");
+  for (const char* option : {"--gl-fma", "--no-host-fma"})
+    require(has("egl") || has("osmesa") || has("softpipe"), option, "Mesa on the processor", "egl, osmesa or softpipe");
+  require(machines.size() > (has("cpu") ? 1 : 0), "--time-limit", "OpenGL", "egl, osmesa, softpipe or gpu");
 }
 
 void require_output_names(const CLI::App& command) {

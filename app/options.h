@@ -89,7 +89,7 @@ struct CpuOptions {
 
 void add_common_options(CLI::App& command, CommonOptions& options);
 void add_subject_options(CLI::App& command, SubjectOptions& options);
-// --technique and --map.
+// --technique and --map; once parsed, refuses what the chosen techniques or the shader do not read.
 void add_technique_option(CLI::App& command, ShadingOptions& options, const std::string& default_techniques);
 void add_light_option(CLI::App& command, ShadingOptions& options);
 // --technique, --map, --light and --shader.
@@ -99,10 +99,12 @@ void add_reference_options(CLI::App& command, ShadingOptions& options);
 void add_attribute_option(CLI::App& command, AttributeMode& attributes);
 // The same, or both.
 void add_attribute_modes_option(CLI::App& command, std::vector<AttributeMode>& modes);
-// --gl-fma, and --no-host-fma for short.
 void add_annotate_option(CLI::App& command, std::string& service);
+// --gl-fma, and --no-host-fma for short.
 void add_fma_option(CLI::App& command, bool& host_fma);
-// isa_default: what is drawn with where --isa is not given, for the help.
+// --isa, --number and --lanes. isa_default: what is drawn with where --isa is not given, for the help.
+void add_number_options(CLI::App& command, CpuOptions& options, const std::string& isa_default = "the best there is");
+// The same and --tile.
 void add_cpu_options(CLI::App& command, CpuOptions& options, const std::string& isa_default = "the best there is");
 void add_count_option(CLI::App& command, const std::string& name, int& count,
                       const std::string& description);  // 1 to 1000
@@ -112,7 +114,11 @@ void add_whole_option(CLI::App& command, const std::string& name, const std::str
 // -I, --include: folders that exist.
 void add_include_option(CLI::App& command, std::vector<std::string>& folders);
 void add_time_limit_option(CLI::App& command, double& seconds);
+// Of a command that has --output already.
 void add_picture_options(CLI::App& command, PictureOptions& options);
+
+// UserError for an option of the CPU or of OpenGL that was given and that none of the chosen machines has.
+void require_machine_options(const CLI::App& command, const std::vector<std::string>& machines);
 
 // UserError for an option of a file or folder to write whose name is empty, as of a script's variable that is not set:
 // it is not the same as to leave the option out.

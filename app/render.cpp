@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <memory>
 
 #include "app/machines.h"
@@ -14,12 +15,17 @@
 #include "experiments/reference_frame.h"
 #include "golden/pictures.h"
 #include "lighting/environment_light.h"
+#include "scenes/model_file.h"
 #include "scenes/scene.h"
 
 namespace twinshade {
 namespace {
 
+// What technique reference has none of: it traces light from the environment to each pixel.
+constexpr const char* kNotOfReference[] = {"--light", "--attributes"};
+
 struct RenderVerb {
+  CLI::App* command = nullptr;
   CommonOptions common;
   SubjectOptions subject;
   ShadingOptions shading;
@@ -28,12 +34,12 @@ struct RenderVerb {
   std::string backend = "cpu", file;
   AttributeMode attributes = AttributeMode::exact;
   bool host_fma = true;
-  std::vector<const CLI::Option*> of_reference;  // options of technique reference alone
 
   int run() const {
     apply(common);
     const Output output(common);
     require_backends({backend});
+    require_machine_options(*command, {backend});
     if (backend == "softpipe")
       throw UserError(
           "softpipe draws no picture of its own: it shades what the CPU covered (twinshade compare --on cpu,softpipe)");
@@ -50,10 +56,10 @@ struct RenderVerb {
     output.require_not_read(files_read(subject, shading), file);
 
     const bool traced = shading.shader.empty() && shading.techniques.front() == kReferenceTechnique;
-    for (const CLI::Option* option : of_reference)
-      if (!traced && option->count() > 0)
-        throw UserError(option->get_name() + ": only technique reference has it; add --technique reference");
-    if (traced && backend != "cpu") throw UserError("technique reference has no shader: the cpu alone draws it");
+    for (const char* option : {"--reference-rays", "--reference-order"})
+      if (!traced && command->get_option(option)->count() > 0)
+        throw UserError(std::string(option) + ": only technique reference has it; add --technique reference");
+    if (traced) require_traceable();
     Subject ready;
     if (!traced) ready = load_subject(subject, shading, common, output, file);
     const Shading shader = traced ? Shading{kReferenceTechnique, "", "", {}} : load_shadings(shading, ready).front();
@@ -93,6 +99,18 @@ struct RenderVerb {
   }
 
  private:
+  void require_traceable() const {
+    if (backend != "cpu") throw UserError("technique reference has no shader: the cpu alone draws it");
+    for (const char* option : kNotOfReference)
+      if (command->get_option(option)->count() > 0)
+        throw UserError(std::string(option) + ": technique reference does not read it: leave it out");
+    std::error_code code;
+    if (std::filesystem::is_regular_file(subject.scene, code) && model_file_ending(subject.scene).empty())
+      throw UserError(subject.scene +
+                      ": technique reference traces a scene, which a bundle has not: name a built-in scene or a model "
+                      "(.gltf, .glb or .obj)");
+  }
+
   Frame trace(const Output& output, Subject& ready) const {
     require_frame_memory(subject.width, subject.height, "cpu");
     require_scene_memory(subject);
@@ -123,13 +141,12 @@ struct RenderVerb {
 Verb add_render(CLI::App& app) {
   CLI::App* command = app.add_subcommand("render", "draw one frame");
   const auto verb = std::make_shared<RenderVerb>();
+  verb->command = command;
   add_subject_options(*command, verb->subject);
   add_shading_options(*command, verb->shading, "h4");
   require_one_shader(*command);
   require_second_environment(*command);
   add_reference_options(*command, verb->shading);
-  for (const char* name : {"--reference-rays", "--reference-order"})
-    verb->of_reference.push_back(command->get_option(name));
   command->add_option("--on", verb->backend, "cpu, egl, osmesa or gpu (default: cpu)")->type_name("BACKEND");
   add_attribute_option(*command, verb->attributes);
   command->add_option("-o,--output", verb->file, "picture to write, by ending: .exr, .hdr or .png")->type_name("F.exr");

@@ -10,6 +10,7 @@
 #include "app/dialect.h"
 #include "app/output.h"
 #include "app/provenance.h"
+#include "app/subject.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/names.h"
@@ -24,6 +25,7 @@ ShaderSource source_of(const std::string& name, const std::vector<std::string>& 
   std::error_code code;
   if (std::filesystem::exists(name, code) || name.find_first_of("./\\") != std::string::npos)
     return load_shader(name, include_folders);
+  if (name == kReferenceTechnique) throw UserError(fmt::format("technique {}: {}", name, kReferenceReason));
   std::vector<std::string> names;
   for (const TechniqueInfo& technique : techniques()) {
     const bool lightmap = can_read(technique, CoefficientStorage::lightmap);

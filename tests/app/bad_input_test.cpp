@@ -72,6 +72,8 @@ TEST_CASE("unknown names are refused, with the nearest known ones") {
   check_refused({"rendr"}, {"rendr", "render"});
   check_refused({"list", "technique"}, {"technique", "techniques"});
   check_refused({"translate", "h7"}, {"h7", "h4"});
+  check_refused({"translate", "reference"}, {"technique reference: it has no shader"});
+  check_refused({"eval", "a.frag", "--annotate", "gitlab"}, {"--annotate gitlab", "github"});
   check_refused({"render", "quad", "--tonemap", "rheinhard"}, {"rheinhard", "reinhard"});
   check_refused({"render", "quad", "--number", "lanes5"}, {"lanes5", "lanes4"});
 }
@@ -98,6 +100,10 @@ TEST_CASE("malformed options are refused") {
   check_refused({"render", "quad", "--tile", "48"}, {"--tile", "16, 32, 64 or 128"});
   check_refused({"render", "quad", "--lanes", "32"}, {"--lanes", "4, 8 or 16"});
   check_refused({"render", "quad", "--lanes", "4", "--number", "scalar"}, {"--lanes", "--number"});
+  for (const char* verb : {"render", "compare", "bench"}) {
+    check_refused({verb, "quad", "--no-host-fma", "--gl-fma", "on"}, {"--no-host-fma", "--gl-fma"});
+    check_refused({verb, "quad", "--gl-fma", "on", "--no-host-fma"}, {"--no-host-fma", "--gl-fma"});
+  }
   check_refused({"render", "quad", "--lightmap", "0"}, {"--lightmap"});
   check_refused({"render", "quad", "--technique", "unc3", "--map", "cubes"}, {"cubes", "cube"});
   check_refused({"render", "quad", "--technique", "unc3", "--map-width", "0"}, {"--map-width", "4096"});
@@ -131,6 +137,10 @@ TEST_CASE("options that would mean nothing are refused, not ignored") {
     check_refused({verb, "quad", "--shader", "a.frag", "--technique", "h4"}, {"--shader", "--technique"});
   for (const char* verb : {"render", "compare", "bake"})
     check_refused({verb, "quad", "--blend", "0.3", "-o", "none.exr"}, {"--blend", "--env2"});
+  for (const char* verb : {"render", "compare"}) {
+    check_refused({verb, "quad", "--exposure", "1"}, {"--exposure", "--output"});
+    check_refused({verb, "quad", "--tonemap", "aces"}, {"--tonemap", "--output"});
+  }
   check_refused({"render", "quad", "--technique", "h4", "--reference-rays", "3"}, {"--reference-rays", "reference"});
   check_refused({"render", "quad", "--reference-order", "3"}, {"--reference-order", "reference"});
   const std::vector<std::pair<std::string, std::vector<std::string>>> ignored{
@@ -146,6 +156,35 @@ TEST_CASE("options that would mean nothing are refused, not ignored") {
     arguments.insert(arguments.end(), options.begin(), options.end());
     check_refused(arguments, {experiment, options.front(), "leave it out"});
   }
+}
+
+TEST_CASE("options of machines that are not drawn on are refused") {
+  const std::vector<std::pair<const char*, const char*>> of_cpu{
+      {"--number", "scalar"}, {"--isa", "baseline"}, {"--tile", "16"}, {"--lanes", "4"}};
+  for (const auto& [option, value] : of_cpu)
+    check_refused({"render", "quad", "--on", "egl", option, value}, {option, "leave it out", "name cpu in --on"});
+  check_refused({"eval", "a.frag", "--on", "egl", "--number", "scalar"}, {"--number", "name cpu in --on"});
+  check_refused({"check", "a.frag", "--on", "egl,osmesa", "--lanes", "4"}, {"--lanes", "name cpu in --on"});
+  check_refused({"check", "a.frag", "--tile", "16"}, {"--tile"});  // there are no tiles
+  check_refused({"render", "quad", "--gl-fma", "off"}, {"--gl-fma", "leave it out", "egl, osmesa or softpipe"});
+  check_refused({"render", "quad", "--on", "gpu", "--no-host-fma"}, {"--no-host-fma", "egl, osmesa or softpipe"});
+  check_refused({"eval", "a.frag", "--on", "cpu", "--time-limit", "5"}, {"--time-limit", "OpenGL"});
+}
+
+TEST_CASE("options that none of the chosen techniques reads are refused") {
+  for (const char* verb : {"render", "compare", "bench"})
+    check_refused({verb, "quad", "--technique", "h4", "--map", "cube"}, {"--map", "h4", "leave it out", "unc3"});
+  check_refused({"bake", "quad", "--technique", "h4,sh3", "--pca-metric", "surface", "-o", "none.bundle"},
+                {"--pca-metric", "h4,sh3", "pca8"});
+  check_refused({"render", "quad", "--technique", "unc3", "--order", "3"}, {"--order", "unc3", "pca8"});
+  const Run all = run_twinshade(small_quad({"render"}, {"--technique", "pca4", "--map", "cube", "--order", "2"}));
+  CHECK_MESSAGE(all.code == 0, all.err);
+  for (const auto& [option, value] : {std::pair("--light", "volume"), std::pair("--attributes", "native")})
+    check_refused({"render", "quad", "--technique", "reference", option, value}, {option, "reference", "leave it out"});
+  const Folder folder;
+  const std::string shader = folder.file("a.frag", "out vec4 color;\nvoid main() { color = vec4(1.0); }\n");
+  for (const char* verb : {"render", "compare", "bench"})
+    check_refused({verb, "quad", "--shader", shader, "--light", "volume"}, {"--light volume", "leave it out"});
 }
 
 TEST_CASE("an instruction set that is unknown, or that TWINSHADE_ISA rules out, is refused") {
@@ -210,6 +249,8 @@ TEST_CASE("options that would change a bundle are refused, not ignored") {
   REQUIRE(run_twinshade(small_quad({"bake"}, {"--technique", "lightmap", "-o", bundle})).code == 0);
   check_refused({"render", bundle, "--technique", "lightmap", "--size", "10x10"}, {"--size", "bake"});
   check_refused({"render", bundle, "--technique", "lightmap", "--env", "sky"}, {"--env", "bake"});
+  check_refused({"render", bundle, "--technique", "lightmap", "--clamp-radiance"}, {"--clamp-radiance", "bake"});
+  check_refused({"render", bundle, "--technique", "reference"}, {"b.bundle: technique reference", "name a built-in"});
 }
 
 TEST_CASE("environments with NaN, infinite or negative radiance name the pixel, and are taken clamped if asked") {

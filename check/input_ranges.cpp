@@ -60,7 +60,7 @@ void require_end(const std::vector<std::string>& words, std::size_t end, const s
   if (end == words.size()) return;
   const bool word = std::isalpha(static_cast<unsigned char>(words[end][0])) != 0 && !kind_of(words[end]);
   if (!word || words[end].find("..") != std::string::npos)
-    throw UserError(where + "\"" + words[end] + "\" is too much behind the range: // begins a comment");
+    throw UserError(where + "\"" + words[end] + "\" is too much behind the range: # or // begins a comment");
 }
 
 // NAME 0..1 | NAME -1..1 0..2 0..2 | NAME {0, 1, 2} | NAME unit|finite|any

@@ -18,6 +18,10 @@ std::string explained(const std::string& message) {
       return message + " (the layout of such a block is the driver's choice: write layout(std140))";
   if (message.find("memory exhausted") != std::string::npos)
     return message + " (glslang's parser: nested too deep, or a chain too long; split it)";
+  for (const char* output : {"gl_FragColor", "gl_FragData"})
+    if (message.find("'" + std::string(output) + "' : undeclared") != std::string::npos)
+      return message.substr(0, message.find_last_not_of(' ') + 1) +
+             " (of old GLSL: declare an output: out vec4 color;)";
   static const std::regex no_function(R"('(\w+)' : no matching overloaded function found)");
   std::smatch match;
   const bool left_out = std::regex_search(message, match, no_function) && is_left_out(match[1].str());

@@ -54,6 +54,8 @@ TEST_CASE("declarations that cannot be bound are refused by name") {
   check_refused(kHead + "void main() { color = vec4(gl_PointCoord, 0, 1); }\n", 3, "gl_PointCoord");
   check_refused("#version 330\nin vec4 a;\nvoid main() { gl_FragColor = a; }\n", 3, "gl_FragColor");
   check_refused("#version 330\nin vec4 a;\nvoid main() { gl_FragData[1] = a; }\n", 3, "gl_FragData");
+  for (const char* written : {"gl_FragColor", "gl_FragData[0]"})  // of GLSL 4.50, as without a #version
+    check_refused(std::string("void main() {\n  ") + written + " = vec4(1); }\n", 2, "declare an output: out vec4");
 }
 
 // In all versions, whose tables of functions are made one by one; whether or not the extension is asked for.

@@ -28,11 +28,13 @@ constexpr FunctionsVersion kNewFunctions[] = {
     {0, kNever,
      "noise1 noise2 noise3 noise4 shadow1D shadow1DProj shadow2D shadow2DProj texture1D texture1DProj texture2D "
      "texture2DProj texture3D texture3DProj textureCube textureQueryLOD"},
+    {400, 300, "packUnorm2x16 unpackUnorm2x16"},
     {400, 310,
      "bitCount bitfieldExtract bitfieldInsert bitfieldReverse findLSB findMSB frexp imulExtended ldexp packSnorm4x8 "
      "packUnorm4x8 textureGather textureGatherOffset uaddCarry umulExtended unpackSnorm4x8 unpackUnorm4x8 usubBorrow"},
     {400, 320, "fma interpolateAtCentroid interpolateAtOffset interpolateAtSample textureGatherOffsets"},
     {400, kNever, "packDouble2x32 textureQueryLod unpackDouble2x32"},
+    {420, 300, "packHalf2x16 packSnorm2x16 unpackHalf2x16 unpackSnorm2x16"},
     {420, 310,
      "atomicCounter atomicCounterDecrement atomicCounterIncrement barrier groupMemoryBarrier imageLoad imageSize "
      "imageStore memoryBarrier memoryBarrierAtomicCounter memoryBarrierBuffer memoryBarrierImage memoryBarrierShared"},

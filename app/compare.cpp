@@ -22,6 +22,7 @@ namespace twinshade {
 namespace {
 
 struct CompareVerb {
+  CLI::App* command = nullptr;
   CommonOptions common;
   SubjectOptions subject;
   ShadingOptions shading;
@@ -387,6 +388,7 @@ int CompareVerb::run() const {
   apply(common);
   Output output(common, {}, folder);
   require_backends(backends);
+  require_machine_options(*command, backends);
   if (backends.size() < 2) throw UserError("--on: name at least two backends to compare, as cpu,egl");
   const bool only_softpipe = std::all_of(backends.begin() + 1, backends.end(), [](auto& b) { return b == "softpipe"; });
   if (backends.front() == "softpipe" || (backends.front() != "cpu" && only_softpipe))
@@ -405,6 +407,7 @@ int CompareVerb::run() const {
 Verb add_compare(CLI::App& app) {
   CLI::App* command = app.add_subcommand("compare", "draw on several machines and compare the frames bit by bit");
   const auto verb = std::make_shared<CompareVerb>();
+  verb->command = command;
   add_subject_options(*command, verb->subject);
   add_shading_options(*command, verb->shading, "all");
   require_one_shader(*command);

@@ -165,6 +165,7 @@ TEST_CASE("options of machines that are not drawn on are refused") {
     check_refused({"render", "quad", "--on", "egl", option, value}, {option, "leave it out", "name cpu in --on"});
   check_refused({"eval", "a.frag", "--on", "egl", "--number", "scalar"}, {"--number", "name cpu in --on"});
   check_refused({"check", "a.frag", "--on", "egl,osmesa", "--lanes", "4"}, {"--lanes", "name cpu in --on"});
+  check_refused({"compare", "quad", "--on", "egl,osmesa", "--lanes", "4"}, {"--lanes", "name cpu in --on"});
   check_refused({"check", "a.frag", "--tile", "16"}, {"--tile"});  // there are no tiles
   check_refused({"render", "quad", "--gl-fma", "off"}, {"--gl-fma", "leave it out", "egl, osmesa or softpipe"});
   check_refused({"render", "quad", "--on", "gpu", "--no-host-fma"}, {"--no-host-fma", "egl, osmesa or softpipe"});

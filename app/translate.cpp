@@ -43,7 +43,8 @@ struct TranslateVerb {
   std::string shader, file;
   std::vector<std::string> include_folders;
 
-  int run() const {
+  int run() {
+    if (file == "-") file.clear();  // stdout
     const Output output(common);
     if (!file.empty()) require_writable_file(file);
     if (file.empty() && common.json == "-")
@@ -93,7 +94,7 @@ Verb add_translate(CLI::App& app) {
   CLI::App* command = app.add_subcommand("translate", "the C++ that a shader becomes, to read");
   const auto verb = std::make_shared<TranslateVerb>();
   command->add_option("shader", verb->shader, "fragment shader file, or a technique")->type_name("SHADER")->required();
-  command->add_option("-o,--output", verb->file, "C++ file to write (default: stdout)")->type_name("F.cpp");
+  command->add_option("-o,--output", verb->file, "C++ file to write (default, and -: stdout)")->type_name("F.cpp");
   add_include_option(*command, verb->include_folders);
   add_common_options(*command, verb->common);
   return {command, [verb] { return verb->run(); }};

@@ -4,6 +4,7 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -55,9 +56,12 @@ std::optional<double> number_in_text(std::string_view text) {
   if (text == "nan") return std::numeric_limits<double>::quiet_NaN();
   if (text.substr(0, 2) != "0x") return std::nullopt;
   text.remove_prefix(2);
+  constexpr std::string_view kFirst = ".0123456789abcdefABCDEF";  // no sign, no inf
+  if (text.empty() || kFirst.find(text[0]) == std::string_view::npos) return std::nullopt;
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::hex);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  if (end != text.data() + text.size()) return std::nullopt;
+  if (error == std::errc::result_out_of_range) return std::strtod(("0x" + std::string(text)).c_str(), nullptr) * sign;
   return sign * rounded_once(value, std::string(text), std::chars_format::hex);
 }
 
@@ -251,13 +255,18 @@ class CasesReader {
       return towards(value.get<double>(), float(value.get_ref<const Json::number_integer_t&>()));
     if (value.is_number()) return value.get<double>();
     if (value.is_string())
-      if (const std::optional<double> number = number_in_text(value.get_ref<const std::string&>())) return *number;
+      if (const std::optional<double> number = number_in_text(value.get_ref<const std::string&>())) {
+        if (std::isinf(*number) && value.get_ref<const std::string&>().find('x') != std::string::npos)
+          fail(where + ": " + shown(value) + " is beyond what a double holds: write \"inf\" where infinity is meant");
+        return *number;
+      }
     fail(where + ": " + shown(value) +
          " is no value: use numbers, true, false, or the strings \"inf\", \"-inf\", \"nan\", \"0x1.8p+1\"");
   }
 
   // As it was written, or shorter.
   static std::string shown(const Json& value) {
+    if (value.is_structured() && !value.empty()) return value.is_array() ? "[...]" : "{...}";  // however deep it is
     if (value.is_number_float()) {
       char text[32];
       const auto [end, error] = std::to_chars(text, text + sizeof text, value.get<double>());
@@ -309,7 +318,9 @@ class CasesReader {
         fail(std::string("tolerance.") + key + " must be a number, 0 or more");
       return value.get<double>();
     };
-    return {std::uint64_t(std::min(number("ulp"), 4294967295.0)), number("abs"), number("rel")};
+    const double ulp = number("ulp");
+    if (ulp != std::floor(ulp)) fail("tolerance.ulp counts representable floats: it must be a whole number");
+    return {std::uint64_t(std::min(ulp, 4294967295.0)), number("abs"), number("rel")};
   }
 
   const std::string& origin_;

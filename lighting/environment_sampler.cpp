@@ -89,7 +89,8 @@ EnvironmentSampler::EnvironmentSampler(const Environment& environment) {
   }
   if (!bright_.empty()) bright_.back().cumulative = 1;
 
-  // The rest as a cube, each texel the mean of 2 x 2 points
+  // The rest as a cube, each texel the mean of points in it
+  constexpr int kPoints = 4;  // across
   face_size_ = std::clamp<std::uint32_t>(width / 4, 16, 512);
   const std::size_t face_texels = std::size_t(face_size_) * face_size_;
   faces_.resize(6 * face_texels);
@@ -97,13 +98,13 @@ EnvironmentSampler::EnvironmentSampler(const Environment& environment) {
     const int face = int(row / face_size_);
     for (std::uint32_t x = 0; x < face_size_; ++x) {
       glm::dvec3 total(0);
-      for (int sub = 0; sub < 4; ++sub) {
-        const double s = (x + (sub % 2 == 0 ? 0.25 : 0.75)) * 2 / face_size_ - 1;
-        const double t = (row % face_size_ + (sub / 2 == 0 ? 0.25 : 0.75)) * 2 / face_size_ - 1;
+      for (int point = 0; point < kPoints * kPoints; ++point) {
+        const double s = (x + (point % kPoints + 0.5) / kPoints) * 2 / face_size_ - 1;
+        const double t = (double(row % face_size_) + (point / kPoints + 0.5) / kPoints) * 2 / face_size_ - 1;
         const glm::dvec3 d = face_direction(face, s, t);
         total += rest.radiance_towards(d / std::sqrt(glm::dot(d, d)));
       }
-      faces_[row * face_size_ + x] = glm::vec3(total * 0.25);
+      faces_[row * face_size_ + x] = glm::vec3(total * (1.0 / (kPoints * kPoints)));
     }
   });
 }

@@ -318,6 +318,13 @@ void require_include_folder(const std::string& folder) {
 }
 
 ShaderSource load_shader(const std::string& path, const std::vector<std::string>& include_folders) {
+  // It stands in comments of generated code, in lines of tables and of messages.
+  if (std::any_of(path.begin(), path.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; })) {
+    std::string shown = path;
+    for (char& c : shown)
+      if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+    throw UserError(shown + ": the path has a control character in it: rename it");
+  }
   refuse_large_file(path);
   const std::string text = read_file(path, kMostBytes);
   if (text.find('\0') != std::string::npos) throw UserError(path + ": not GLSL: it has zero bytes");

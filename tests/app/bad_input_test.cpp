@@ -288,6 +288,9 @@ TEST_CASE("bad GLSL is refused with the file and line of the include that is wro
       folder.file("missing.frag", "out vec4 color;\n#include \"nowhere.glsl\"\nvoid main() {}\n");
   check_refused({"translate", missing}, {"missing.frag:2", "nowhere.glsl"});
   check_refused({"render", "quad", "--shader", folder / "none.frag"}, {"none.frag"});
+  const std::string broken = folder.file("new\nline.frag", "out vec4 color;\nvoid main() { color = vec4(1.0); }\n");
+  for (const char* verb : {"translate", "check"})
+    check_refused({verb, broken}, {"new?line.frag: the path has a control"});
 }
 
 TEST_CASE("a shader that reads what the scene does not have is refused, naming it") {

@@ -82,6 +82,8 @@ TEST_CASE("decimals, hex floats and whole numbers become the nearest float, roun
   CHECK(bits("3.4028235677973366e38") == 0x7f7fffffu);  // below the half-way to what would be 2^128
   CHECK(bits("0.1") == 0x3dcccccdu);
   CHECK(bits("1e-50") == 0);
+  CHECK(bits("\"0x1p-2000\"") == 0);
+  CHECK(bits("\"-0x.8p+1\"") == 0xbf800000u);
   CHECK(bits("-0.0") == 0x80000000u);
 }
 
@@ -118,6 +120,17 @@ TEST_CASE("what is wrong with cases is said in one line") {
   CHECK(refusal(input(std::string(1000000, 'v'), "[1]")).size() < 400);
   CHECK(refusal(input("float", "[]")) ==
         "f.json: values.inputs[0] (x) has no rows: give \"values\" one for each invocation");
+  for (const char* text : {"0x-1", "0xinf", "0xnan", "0x", "0x1p", "0x1p+1 ", "--0x1p+1"})
+    CHECK(refusal(input("float", "[\"" + std::string(text) + "\"]")).find("\" is no value: use numbers") !=
+          std::string::npos);
+  CHECK(refusal(input("float", "[\"0x1p+9999\"]")).find("is beyond what a double holds") != std::string::npos);
+  std::string deep;
+  for (int i = 0; i < 300000; ++i) deep += "{\"a\":";
+  CHECK(refusal(input("float", "[" + deep + "1" + std::string(300000, '}') + "]")) ==
+        "f.json: values.inputs[0] (x), row 0: {...} is no value: use numbers, true, false, or the strings \"inf\", "
+        "\"-inf\", \"nan\", \"0x1.8p+1\"");
+  CHECK(refusal(R"({"values": {"inputs": []}, "tolerance": {"ulp": 0.5}})") ==
+        "f.json: tolerance.ulp counts representable floats: it must be a whole number");
   CHECK(refusal(input("float", "[{}]")).find("row 0: {} is no value") != std::string::npos);
   CHECK(refusal(input("float", "[null]")).find("row 0: null is no value") != std::string::npos);
   CHECK(refusal(input("float", std::string(100000, '[') + std::string(100000, ']'))).find("lists in lists") !=

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "lighting/direction_sets.h"
 #include "lighting/environment_sampler.h"
@@ -85,6 +86,41 @@ TEST_CASE("environment: rest and bright pixels add up to the whole, and the sun'
   for (int c = 0; c < 3; ++c)
     whole[c] = 0.25 * (4 * pi - 2 * omega) + omega * (environment.radiance[660][c] + environment.radiance[661][c]);
   for (int c = 0; c < 3; ++c) CHECK(rest[c] + bright[c] == doctest::Approx(whole[c]).epsilon(2e-3));
+}
+
+TEST_CASE("rays see as much light of a picture whose pixels all differ as the pixels give, to a thousandth") {
+  Environment environment;
+  environment.width = 128, environment.height = 64;
+  environment.radiance.resize(128 * 64);
+  std::mt19937 random(1);
+  for (glm::vec3& pixel : environment.radiance)
+    for (int c = 0; c < 3; ++c) pixel[c] = float(std::pow(random() * 0x1p-32, 2.0));  // none is bright
+  const EnvironmentSampler sampler(environment);
+  REQUIRE(!sampler.has_bright());
+  for (const glm::dvec3& normal : {glm::dvec3(0, 0.8, 0.6), glm::dvec3(0, 1, 0), glm::dvec3(0.6, 0, -0.8)}) {
+    glm::dvec3 pixels(0), seen(0);
+    const auto add = [&](std::uint32_t width, std::uint32_t height, glm::dvec3& sum, const auto& radiance) {
+      for (std::uint32_t y = 0; y < height; ++y)
+        for (std::uint32_t x = 0; x < width; ++x) {
+          const double top = std::cos(pi * y / height), bottom = std::cos(pi * (y + 1) / height);
+          const double sine = (top + bottom) / 2, angle = pi - 2 * pi * (x + 0.5) / width;
+          const double across = std::sqrt(1 - sine * sine);
+          const glm::dvec3 d(std::sin(angle) * across, sine, std::cos(angle) * across);
+          const double cosine = std::max(0.0, glm::dot(d, normal));
+          sum += radiance(x, y, d) * (cosine * (top - bottom) * 2 * pi / width);
+        }
+    };
+    // Pixels as they stand, cut to pieces for the cosine; what rays find in as many directions.
+    add(1024, 512, pixels, [&](std::uint32_t x, std::uint32_t y, const glm::dvec3&) {
+      return glm::dvec3(environment.radiance[y / 8 * 128 + x / 8]);
+    });
+    add(1024, 512, seen,
+        [&](std::uint32_t, std::uint32_t, const glm::dvec3& d) { return glm::dvec3(sampler.rest(glm::vec3(d))); });
+    for (int c = 0; c < 3; ++c) {
+      CAPTURE(pixels[c]);
+      CHECK(std::abs(seen[c] / pixels[c] - 1) < 0.001);
+    }
+  }
 }
 
 TEST_CASE("a constant sky over open ground: the projected hemisphere in closed form, irradiance pi") {

@@ -40,8 +40,9 @@ Output::Output(const CommonOptions& options, const std::string& junit_file, cons
     : options_(options), junit_file_(junit_file), folder_(folder) {
   if (options.json == "-" && junit_file == "-")
     throw UserError("--json - and --junit -: both go to stdout; name a file for one of them");
+  std::error_code code;
   for (const std::string& file : {options.json, junit_file})
-    if (!file.empty() && file != "-" && (fs::exists(folder) || !is_in_folder(file))) require_writable_file(file);
+    if (!file.empty() && file != "-" && (fs::exists(folder, code) || !is_in_folder(file))) require_writable_file(file);
   if (const auto written = files(); written.size() == 2 && same_file(written[0].second, written[1].second))
     throw UserError("--json and --junit both write " + junit_file + ": name another file for one of them");
   shows_progress_ = !options.quiet && ::isatty(STDERR_FILENO);

@@ -93,20 +93,17 @@ class Reader {
     }
   }
 
-  // The array or object of a key, which may be missing.
-  static const json& list(const json& object, const char* key) {
-    static const json none = json::array();
+  // What a key, which may be missing, holds: of the type of `none`, which stands for it then.
+  static const json& part_of(const json& object, const char* key, const json& none) {
     const auto found = object.find(key);
     if (found == object.end()) return none;
-    if (!found->is_array()) throw json::type_error::create(302, "type must be array", &*found);
+    if (found->type() != none.type())
+      throw json::type_error::create(302, std::string("type must be ") + none.type_name(), &*found);
     return *found;
   }
-  static const json& part_of(const json& object, const char* key) {
-    static const json none = json::object();
-    const auto found = object.find(key);
-    if (found == object.end()) return none;
-    if (!found->is_object()) throw json::type_error::create(302, "type must be object", &*found);
-    return *found;
+  static const json& list(const json& object, const char* key) {
+    static const json none = json::array();
+    return part_of(object, key, none);
   }
 
   static dmat4 local_transform(const json& node) {
@@ -328,8 +325,9 @@ class Reader {
     if (index >= 0) {
       const json& object = document_.element("materials", std::size_t(index));
       material.name = object.value("name", "material " + std::to_string(index));
-      const json& extensions = part_of(object, "extensions");
-      const json& pbr = part_of(object, "pbrMetallicRoughness");
+      static const json none = json::object();
+      const json& extensions = part_of(object, "extensions", none);
+      const json& pbr = part_of(object, "pbrMetallicRoughness", none);
       const auto glossy = extensions.find("KHR_materials_pbrSpecularGlossiness");
       const bool diffuse = glossy != extensions.end();
       const json& base = diffuse ? *glossy : pbr;

@@ -51,6 +51,15 @@ bool names(const ProbedShader& shader, int line, const std::string& what) {
   return false;
 }
 
+// With probes, which compile all together and of each statement alone.
+ProbedShader compiling_probes(const ShaderSource& source) {
+  ProbedShader shader = add_probes(source);
+  CHECK_NOTHROW(compile_glsl(shader.source));
+  for (std::size_t k = 0; k < shader.statements.size(); ++k)
+    CHECK_NOTHROW(compile_glsl(add_probes(source, std::set<std::size_t>{k}).source));
+  return shader;
+}
+
 }  // namespace
 
 TEST_CASE("every kind of statement is probed, at its line") {
@@ -187,10 +196,7 @@ TEST_CASE("what an argument stores is told, without parentheses around it too") 
                                              "  f(f(x = c));\n"
                                              "}\n",
                                              "t.frag");
-  const ProbedShader shader = add_probes(source);
-  CHECK_NOTHROW(compile_glsl(shader.source));
-  for (std::size_t k = 0; k < shader.statements.size(); ++k)
-    CHECK_NOTHROW(compile_glsl(add_probes(source, std::set<std::size_t>{k}).source));
+  const ProbedShader shader = compiling_probes(source);
   CHECK(names(shader, 5, "x, c"));
   CHECK(names(shader, 6, "x, c"));
   CHECK(names(shader, 7, "i, c"));
@@ -217,10 +223,7 @@ TEST_CASE("what conditions, selectors and results store is told") {
                                              "  if (true || d() > (c = 3.0)) ;\n"
                                              "}\n",
                                              "t.frag");
-  const ProbedShader shader = add_probes(source);
-  CHECK_NOTHROW(compile_glsl(shader.source));
-  for (std::size_t k = 0; k < shader.statements.size(); ++k)
-    CHECK_NOTHROW(compile_glsl(add_probes(source, std::set<std::size_t>{k}).source));
+  const ProbedShader shader = compiling_probes(source);
   const std::vector<std::pair<int, std::string>> expected = {
       {4, "g"},  {4, "result of f"}, {6, "w[0], w[1], g"}, {6, "result of h"}, {8, "g"},
       {11, "t"}, {11, "t, s"},       {11, "condition"},    {12, "i, t"},       {13, "s.v.x, g"},
@@ -305,10 +308,7 @@ TEST_CASE("a declaration that is all that an if, an else or a loop does is told 
                                              "  color = vec4(x, y, a, 1.0);\n"
                                              "}\n",
                                              "alone.frag");
-  const ProbedShader shader = add_probes(source);
-  CHECK_NOTHROW(compile_glsl(shader.source));
-  for (std::size_t k = 0; k < shader.statements.size(); ++k)
-    CHECK_NOTHROW(compile_glsl(add_probes(source, std::set<std::size_t>{k}).source));
+  const ProbedShader shader = compiling_probes(source);
   CHECK(names(shader, 5, "x, b"));
   CHECK(names(shader, 6, "c, y, d"));
   CHECK(names(shader, 7, "e"));

@@ -17,7 +17,7 @@ namespace twinshade {
 namespace {
 
 // Raise when the same inputs give another bake. What the GLSL of the radiance basis says is in the key by itself.
-constexpr int kBakeVersion = 5;
+constexpr int kBakeVersion = 6;
 
 using Notes = std::vector<std::pair<std::string, std::string>>;
 
@@ -60,6 +60,7 @@ LightBake gathered_light(const Scene& scene, const Environment& environment, con
   bake.storage = light.storage;
   bake.width = light.width, bake.height = light.height;
   bake.sh = std::move(light.sh);
+  bake.irradiance = std::move(light.irradiance);
   bake.rays_per_second = double(light.rays) / seconds;
   return bake;
 }

@@ -35,7 +35,9 @@ struct LightBake {
   std::uint32_t width = 0, height = 0;
   int radiance_count = 25;  // coefficients a channel
   std::vector<float> sh;    // coefficient i of channel c of cell x, y: [((y * width + x) * radiance_count + i) * 3 + c]
-  glm::ivec3 volume{0};     // probes along each axis
+  // Irradiance of the flat surface, RGB a cell, gathered without SH in between. Empty for volumes and procedural light.
+  std::vector<float> irradiance;
+  glm::ivec3 volume{0};                         // probes along each axis
   glm::vec3 volume_origin{0}, volume_scale{0};  // of probe (0, 0, 0); probes per unit of length, 0 along an axis of one
   std::string hash;                             // SHA-256 of the content
   std::vector<std::pair<std::string, std::string>> notes;  // scene, environment and options, for bundles

@@ -1,5 +1,5 @@
-// Layout: Header, a bit for each cell (1: it has coefficients), the coefficients of those cells as f32, SHA-256 of all
-// before it as 64 hex digits. That hash is also the bake's.
+// Layout: Header, a bit for each cell (1: it has light), what those cells have as f32 (coefficients, then irradiance
+// where the bake has it), SHA-256 of all before it as 64 hex digits. That hash is also the bake's.
 #include "lighting/bake_cache.h"
 
 #include <bit>
@@ -18,15 +18,16 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-constexpr std::uint32_t kMagic = 0x324b4254;  // "TBK2"
+constexpr std::uint32_t kMagic = 0x334b4254;  // "TBK3"
 
 struct Header {
-  std::uint32_t magic, storage, width, height, radiance_count;
+  std::uint32_t magic, storage, width, height, radiance_count, irradiance_count;
   std::int32_t volume[3];
   float origin[3], scale[3];
 };
 constexpr std::size_t kHeaderBytes = sizeof(Header);
-static_assert(kHeaderBytes == 14 * 4);
+static_assert(kHeaderBytes == 15 * 4);
+constexpr std::size_t kRgbBytes = 3 * sizeof(float);
 
 bool is_zero(const char* cell, std::size_t bytes) {
   for (std::size_t i = 0; i < bytes; ++i)
@@ -38,22 +39,32 @@ bool is_zero(const char* cell, std::size_t bytes) {
 
 std::string serialize_bake(const LightBake& bake) {
   const std::size_t cells = std::size_t(bake.width) * bake.height;
-  const std::size_t cell_bytes = std::size_t(bake.radiance_count) * 3 * sizeof(float);
-  Header header{
-      kMagic, std::uint32_t(bake.storage), bake.width, bake.height, std::uint32_t(bake.radiance_count), {}, {}, {}};
+  const std::uint32_t irradiance_count = bake.irradiance.empty() ? 0 : 1;
+  Header header{kMagic,
+                std::uint32_t(bake.storage),
+                bake.width,
+                bake.height,
+                std::uint32_t(bake.radiance_count),
+                irradiance_count,
+                {},
+                {},
+                {}};
   for (int axis = 0; axis < 3; ++axis) {
     header.volume[axis] = bake.volume[axis];
     header.origin[axis] = bake.volume_origin[axis];
     header.scale[axis] = bake.volume_scale[axis];
   }
+  const std::size_t sh_bytes = header.radiance_count * kRgbBytes, irradiance_bytes = irradiance_count * kRgbBytes;
   std::string bytes(reinterpret_cast<const char*>(&header), kHeaderBytes);
   bytes.resize(kHeaderBytes + (cells + 7) / 8, 0);
-  const char* values = reinterpret_cast<const char*>(bake.sh.data());
-  bytes.reserve(bytes.size() + cells * cell_bytes + kBakeHashLength);
-  for (std::size_t cell = 0; cell < cells; ++cell) {
-    if (is_zero(values + cell * cell_bytes, cell_bytes)) continue;
+  bytes.reserve(bytes.size() + cells * (sh_bytes + irradiance_bytes) + kBakeHashLength);
+  const char* sh = reinterpret_cast<const char*>(bake.sh.data());
+  const char* irradiance = reinterpret_cast<const char*>(bake.irradiance.data());
+  for (std::size_t cell = 0; cell < cells; ++cell, sh += sh_bytes, irradiance += irradiance_bytes) {
+    if (is_zero(sh, sh_bytes) && is_zero(irradiance, irradiance_bytes)) continue;
     bytes[kHeaderBytes + cell / 8] = char(bytes[kHeaderBytes + cell / 8] | (1 << cell % 8));
-    bytes.append(values + cell * cell_bytes, cell_bytes);
+    bytes.append(sh, sh_bytes);
+    bytes.append(irradiance, irradiance_bytes);
   }
   return bytes + sha256_hex(bytes);
 }
@@ -67,7 +78,7 @@ std::optional<LightBake> deserialize_bake(std::string_view bytes) {
   Header header;
   std::memcpy(&header, content.data(), kHeaderBytes);
   if (header.magic != kMagic || header.storage > std::uint32_t(CoefficientStorage::volume) ||
-      header.radiance_count > std::uint32_t(kMostRadianceCount))
+      header.radiance_count > std::uint32_t(kMostRadianceCount) || header.irradiance_count > 1)
     return std::nullopt;
   bake.storage = CoefficientStorage(header.storage);
   bake.width = header.width, bake.height = header.height;
@@ -77,7 +88,8 @@ std::optional<LightBake> deserialize_bake(std::string_view bytes) {
     bake.volume_origin[axis] = header.origin[axis];
     bake.volume_scale[axis] = header.scale[axis];
   }
-  const std::size_t cell_bytes = std::size_t(bake.radiance_count) * 3 * sizeof(float);
+  const std::size_t sh_bytes = header.radiance_count * kRgbBytes;
+  const std::size_t irradiance_bytes = header.irradiance_count * kRgbBytes;
 
   const std::size_t cells = std::size_t(bake.width) * bake.height, mask_bytes = (cells + 7) / 8;
   if (content.size() - kHeaderBytes < mask_bytes) return std::nullopt;
@@ -85,13 +97,16 @@ std::optional<LightBake> deserialize_bake(std::string_view bytes) {
   const auto stored = [&](std::size_t cell) { return (mask[cell / 8] >> cell % 8 & 1) != 0; };
   std::size_t count = 0;
   for (std::size_t cell = 0; cell < cells; ++cell) count += stored(cell);
-  if (content.size() != kHeaderBytes + mask_bytes + count * cell_bytes) return std::nullopt;
-  bake.sh.assign(cells * bake.radiance_count * 3, 0.0f);
+  if (content.size() != kHeaderBytes + mask_bytes + count * (sh_bytes + irradiance_bytes)) return std::nullopt;
+  bake.sh.assign(cells * sh_bytes / sizeof(float), 0.0f);
+  bake.irradiance.assign(cells * irradiance_bytes / sizeof(float), 0.0f);
   const char* from = mask + mask_bytes;
   for (std::size_t cell = 0; cell < cells; ++cell) {
     if (!stored(cell)) continue;
-    std::memcpy(bake.sh.data() + cell * bake.radiance_count * 3, from, cell_bytes);
-    from += cell_bytes;
+    std::memcpy(reinterpret_cast<char*>(bake.sh.data()) + cell * sh_bytes, from, sh_bytes);
+    from += sh_bytes;
+    std::memcpy(reinterpret_cast<char*>(bake.irradiance.data()) + cell * irradiance_bytes, from, irradiance_bytes);
+    from += irradiance_bytes;
   }
   return bake;
 }

@@ -90,16 +90,19 @@ class Gatherer {
 
   GatheredLight run() {
     const FillPlan fill = direct();
+    std::vector<float> irradiance = out_.irradiance;  // with what bounces, which is gathered from direct light alone
     if (remembered_ > 0) {
       const std::size_t count = receivers_.list.size();
       Progress progress("bake: bounce", "rays", count * remembered_, options_.show_progress);
       parallel_for((count + kReceiversAtOnce - 1) / kReceiversAtOnce, [&](std::size_t chunk, int) {
         const std::size_t first = chunk * kReceiversAtOnce, last = std::min(count, first + kReceiversAtOnce);
-        for (std::size_t i = first; i < last; ++i) gather_bounce(i);
+        for (std::size_t i = first; i < last; ++i) gather_bounce(i, irradiance);
         progress.add((last - first) * remembered_);
       });
     }
     fill.apply(out_.sh, kValues);
+    fill.apply(irradiance, 3);
+    out_.irradiance = std::move(irradiance);
     return std::move(out_);
   }
 
@@ -225,7 +228,7 @@ class Gatherer {
                                                               : FillPlan::vertices(known, receivers_, scene_);
   }
 
-  void gather_bounce(std::size_t i) {
+  void gather_bounce(std::size_t i, std::vector<float>& irradiance) {
     const std::uint32_t cell = receivers_.list[i].cell;
     const float* weights = sets_.weights(set_of(i));
     RayProjection sum;
@@ -242,6 +245,8 @@ class Gatherer {
     float* values = out_.sh.data() + std::size_t(cell) * kValues;
     for (int k = 0; k < kRadianceCount; ++k)
       for (int c = 0; c < 3; ++c) values[k * 3 + c] = float(values[k * 3 + c] + sum.sum(k, c) * weight);
+    float* flat = irradiance.data() + std::size_t(cell) * 3;
+    for (int c = 0; c < 3; ++c) flat[c] = float(flat[c] + sum.sum(DirectionSets::kCosine, c) * weight);
   }
 
   const Scene& scene_;

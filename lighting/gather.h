@@ -16,7 +16,7 @@ struct GatheredLight {
   CoefficientStorage storage = CoefficientStorage::lightmap;
   std::uint32_t width = 0, height = 0;
   std::vector<float> sh;          // as LightBake::sh
-  std::vector<float> irradiance;  // direct irradiance of the flat surface, RGB a cell, without SH in between
+  std::vector<float> irradiance;  // as LightBake::irradiance
   std::uint64_t rays = 0;         // traced or decided
 };
 
@@ -25,7 +25,7 @@ GatheredLight gather_light(const Scene& scene, const Environment& environment, c
 // The first pass alone: what surfaces receive directly, for rays from elsewhere that meet them.
 struct SurfaceLight {
   Receivers receivers;
-  std::vector<float> irradiance;  // as GatheredLight::irradiance
+  std::vector<float> irradiance;  // direct irradiance of the flat surface, RGB a cell, without SH in between
   std::uint64_t rays = 0;
 
   // Radiance towards anywhere above it that the surface at a point of a triangle reflects; choice: as Receivers::at.

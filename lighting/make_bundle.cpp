@@ -46,9 +46,14 @@ std::vector<const TechniqueInfo*> bases_in_use(const std::vector<LitTechnique>& 
 // Coefficient i of channel c of a cell at [(i * cells + cell) * stride + c].
 std::vector<float> coefficients(const LightBake& light, const TechniqueInfo& basis, std::size_t stride) {
   const std::size_t numbers = std::size_t(light.radiance_count) * 3;
-  const Projector projector(basis, light.radiance_count);
   const std::size_t cells = std::size_t(light.width) * light.height, count = std::size_t(basis.count);
   std::vector<float> values(count * cells * stride, 0.0f);
+  if (basis.projection == Projection::value_at_normal && !light.irradiance.empty()) {
+    for (std::size_t cell = 0; cell < cells; ++cell)
+      for (int c = 0; c < 3; ++c) values[cell * stride + c] = light.irradiance[cell * 3 + c];
+    return values;
+  }
+  const Projector projector(basis, light.radiance_count);
   constexpr std::size_t kCellsOfBlock = 256;
   parallel_for((cells + kCellsOfBlock - 1) / kCellsOfBlock, [&](std::size_t block, int) {
     const std::size_t first = block * kCellsOfBlock, length = std::min(kCellsOfBlock, cells - first);

@@ -123,6 +123,7 @@ TEST_CASE("a cached bake is the bake; a damaged entry is rebuilt") {
   CHECK(second.rays_per_second == 0);
   CHECK(second.hash == first.hash);
   CHECK(second.sh == first.sh);
+  CHECK(second.irradiance == first.irradiance);
   CHECK(second.notes == first.notes);
 
   cache.damage();
@@ -133,23 +134,27 @@ TEST_CASE("a cached bake is the bake; a damaged entry is rebuilt") {
 }
 
 TEST_CASE("serialised bakes come back; truncated or altered ones do not") {
-  LightBake bake;
-  bake.width = 5, bake.height = 3;
-  bake.sh.assign(15 * 75, 0.0f);
-  bake.sh[75 * 7 + 3] = 1.5f;
-  bake.sh[75 * 14 + 74] = -2.5f;
-  const std::string bytes = serialize_bake(bake);
-  const std::optional<LightBake> back = deserialize_bake(bytes);
-  REQUIRE(back.has_value());
-  CHECK(back->sh == bake.sh);
-  CHECK(back->width == 5);
-  CHECK(back->hash == bytes.substr(bytes.size() - kBakeHashLength));
-  for (std::size_t length = 0; length < bytes.size(); length += 7)
-    CHECK_FALSE(deserialize_bake(bytes.substr(0, length)));
-  for (std::size_t i = 0; i < bytes.size(); i += 5) {
-    std::string altered = bytes;
-    altered[i] = char(altered[i] ^ 4);
-    CHECK_FALSE(deserialize_bake(altered));
+  for (const bool irradiance : {false, true}) {
+    LightBake bake;
+    bake.width = 5, bake.height = 3;
+    bake.sh.assign(15 * 75, 0.0f);
+    bake.sh[75 * 7 + 3] = 1.5f;
+    bake.sh[75 * 14 + 74] = -2.5f;
+    if (irradiance) bake.irradiance.assign(15 * 3, 0.0f), bake.irradiance[3 * 9 + 1] = 0.25f;
+    const std::string bytes = serialize_bake(bake);
+    const std::optional<LightBake> back = deserialize_bake(bytes);
+    REQUIRE(back.has_value());
+    CHECK(back->sh == bake.sh);
+    CHECK(back->irradiance == bake.irradiance);
+    CHECK(back->width == 5);
+    CHECK(back->hash == bytes.substr(bytes.size() - kBakeHashLength));
+    for (std::size_t length = 0; length < bytes.size(); length += 7)
+      CHECK_FALSE(deserialize_bake(bytes.substr(0, length)));
+    for (std::size_t i = 0; i < bytes.size(); i += 5) {
+      std::string altered = bytes;
+      altered[i] = char(altered[i] ^ 4);
+      CHECK_FALSE(deserialize_bake(altered));
+    }
   }
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/portable_math.h"
 #include "lighting/bake.h"
 #include "lighting/camera.h"
 #include "lighting/material_textures.h"
@@ -59,6 +60,29 @@ TEST_CASE("cameras that see nothing are refused") {
     if (change == 4) camera.near_plane = NAN;
     CHECK_THROWS_AS(CameraTransform(camera, 1), UserError);
   }
+}
+
+TEST_CASE("the flat lightmap of a sun two degrees above the ground has its cosine") {
+  Environment environment = uniform_environment(0, 256);
+  environment.radiance[62 * 256 + 37] = glm::vec3(3e5f, 2e5f, 1e5f);
+  const double top = std::cos(portable::kPi * 62 / 128), bottom = std::cos(portable::kPi * 63 / 128);
+  const double expected = 2 * portable::kPi / 256 * (top * top - bottom * bottom) / 2;  // of radiance 1
+  BakeOptions bake;
+  bake.lightmap_size = 16, bake.rays = 4096, bake.use_cache = false, bake.show_progress = false;
+  Scene scene = floor_scene();
+  const Bundle mapped = make_bundle(scene, bake_light(scene, environment, bake), named({"lightmap"}), FrameOptions());
+  const Texture* texture = mapped.find_texture("coefficients_lightmap");
+  REQUIRE(texture != nullptr);
+  double mean[3] = {};
+  for (int cell = 0; cell < 256; ++cell)
+    for (int c = 0; c < 3; ++c) mean[c] += texture->texels[cell * 4 + c] / 256;
+  for (int c = 0; c < 3; ++c) CHECK(mean[c] == doctest::Approx((3 - c) * 1e5 * expected).epsilon(2e-3));
+
+  scene.lightmap_uvs.clear();
+  const Bundle vertices = make_bundle(scene, bake_light(scene, environment, bake), named({"lightmap"}), FrameOptions());
+  const Attribute* attribute = vertices.find_attribute("coefficients_lightmap[0]");
+  REQUIRE(attribute != nullptr);
+  for (int c = 0; c < 3; ++c) CHECK(attribute->values[c] == doctest::Approx((3 - c) * 1e5 * expected).epsilon(2e-2));
 }
 
 TEST_CASE("lightmap storage: a texture array for each basis that a technique reads, valid and complete") {

@@ -19,8 +19,11 @@ namespace twinshade {
 namespace {
 
 constexpr int kValues = kVolumeRadianceCount * 3;
-constexpr std::uint32_t kSets = 32;         // of directions, of which each probe takes one
-constexpr std::size_t kProbesAtOnce = 4;    // probes handed to a thread at a time
+constexpr std::uint32_t kSets = 32;       // of directions, of which each probe takes one
+constexpr std::size_t kProbesAtOnce = 4;  // probes handed to a thread at a time
+// A probe that meets more backs than this is inside of something, or behind a sheet, which hides from it what lights
+// the front: the front is lit by those before it.
+constexpr double kBehindShare = 0.25;
 constexpr std::uint32_t kSurfaceMap = 128;  // texels each way of the lightmap that reflected light is taken from
 
 // Sets of one direction in each of `rays` bands of equal solid angle, as DirectionSets, over the whole sphere.
@@ -112,7 +115,7 @@ class VolumeGatherer {
 
     add_bright(probe, position, values);
     for (int k = 0; k < kValues; ++k) out_.sh[probe * kValues + k] = float(values[k]);
-    return !(met_back > kInsideShare * rays);
+    return !(met_back > kBehindShare * rays);
   }
 
   void add_bright(std::size_t probe, const glm::vec3& position, double* values) const {

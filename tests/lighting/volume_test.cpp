@@ -108,6 +108,17 @@ TEST_CASE("a floor reflects its share of the sky into the probes above it") {
   CHECK(e[6] == doctest::Approx(pi * 0.75).epsilon(0.06));
 }
 
+TEST_CASE("a probe behind an open sheet takes its light from those before it") {
+  // Two layers of probes, of which the lower ones see the floor's back in just under half of their rays
+  BakeOptions options = small_volume();
+  options.volume = {3, 2, 3};
+  const LightBake volume = bake_volume(floor_scene(), uniform_environment(1), options);
+  const glm::dvec3 normals[] = {{0, 1, 0}};
+  for (const std::size_t above : {3u, 4u, 5u, 10u})
+    for (const std::size_t probe : {above - 3, above})
+      CHECK(probe_irradiance(volume, probe, "sh5", normals)[0] == doctest::Approx(pi).epsilon(0.03));
+}
+
 TEST_CASE("a probe inside of a box takes its light from those around it") {
   Scene scene = furnace_scene(0);
   scene.indices.erase(scene.indices.begin() + 6, scene.indices.begin() + 12);  // no ceiling

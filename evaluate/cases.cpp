@@ -65,6 +65,25 @@ std::optional<double> number_in_text(std::string_view text) {
   return sign * rounded_once(value, std::string(text), std::chars_format::hex);
 }
 
+// Reads text and notes how far it has come: the parser does not say where a key stands.
+struct NotingIterator {
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+
+  const char* at;
+  const char** reached;
+
+  reference operator*() const { return *at; }
+  NotingIterator& operator++() {
+    *reached = ++at;
+    return *this;
+  }
+  bool operator==(const NotingIterator& other) const { return at == other.at; }
+};
+
 // JSON as a tree whose decimals are rounded_once. Of what is malformed it keeps what is to be said.
 class TreeBuilder final : public nlohmann::json_sax<Json> {
  public:
@@ -72,6 +91,12 @@ class TreeBuilder final : public nlohmann::json_sax<Json> {
 
   Json tree;
   std::string error;
+
+  // Whether it is JSON.
+  bool parse() {
+    return Json::sax_parse(NotingIterator{reached_, &reached_}, NotingIterator{text_.data() + text_.size(), &reached_},
+                           this);
+  }
 
   bool null() override { return add(nullptr); }
   bool boolean(bool value) override { return add(value); }
@@ -87,15 +112,15 @@ class TreeBuilder final : public nlohmann::json_sax<Json> {
   bool end_array() override { return close(); }
   bool key(std::string& name) override {
     if (open_.back()->contains(name)) {
-      error = origin_ + ": \"" + shortened(name) + "\" stands twice in one object: keep one";
+      error = place_of(std::size_t(reached_ - text_.data())) + "\"" + shortened(name) +
+              "\" stands twice in one object: keep one";
       return false;
     }
     key_ = name;
     return true;
   }
   bool parse_error(std::size_t position, const std::string& token, const nlohmann::detail::exception& e) override {
-    const std::string_view before = text_.substr(0, position);
-    error = origin_ + ":" + std::to_string(1 + std::count(before.begin(), before.end(), '\n')) + ": ";
+    error = place_of(position);
     if (e.id == 406) {  // out_of_range
       error += shortened(token) + " is beyond what a double holds: write \"inf\" where infinity is meant";
       return false;
@@ -109,6 +134,10 @@ class TreeBuilder final : public nlohmann::json_sax<Json> {
   }
 
  private:
+  std::string place_of(std::size_t position) const {
+    const std::string_view before = text_.substr(0, position);
+    return origin_ + ":" + std::to_string(1 + std::count(before.begin(), before.end(), '\n')) + ": ";
+  }
   Json& place(Json&& value) {
     if (open_.empty()) return tree = std::move(value);
     Json& parent = *open_.back();
@@ -130,6 +159,7 @@ class TreeBuilder final : public nlohmann::json_sax<Json> {
 
   const std::string_view text_;
   const std::string& origin_;
+  const char* reached_ = text_.data();
   std::vector<Json*> open_;  // what is not closed yet, the outermost first; no sibling moves one while it is open
   std::string key_;
 };
@@ -167,7 +197,7 @@ class CasesReader {
 
   Json parse(std::string_view text) const {
     TreeBuilder builder(text, origin_);
-    if (!Json::sax_parse(text, &builder)) throw UserError(builder.error);
+    if (!builder.parse()) throw UserError(builder.error);
     return std::move(builder.tree);
   }
 

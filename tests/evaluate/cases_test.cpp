@@ -107,8 +107,10 @@ TEST_CASE("what is wrong with cases is said in one line") {
   CHECK(refusal(input("int[2][2]", "[[1, 2, 3, 4]]")) ==
         "f.json: values.inputs[0] (x): \"int[2][2]\": give each array of an array of arrays by itself, as x[0], x[1] "
         "...");
-  CHECK(refusal(R"({"values": {"inputs": []}, "values": {}})") ==
-        "f.json: \"values\" stands twice in one object: keep one");
+  CHECK(refusal(R"({"values": {"inputs": []},
+"name": "a",
+
+"values": {}})") == "f.json:4: \"values\" stands twice in one object: keep one");
   CHECK(refusal(input("bool", "[2]")) == "f.json: values.inputs[0] (x), row 0: 2 is no bool");
   CHECK(
       refusal(input("float", "[1e39]")) ==

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "base/error.h"
 #include "base/hash.h"
@@ -143,7 +144,7 @@ class HeaderWriter {
         "is missing or\n// the spans differ in length.\n"
         "#pragma once\n\n#include <array>\n#include <bit>\n#include <cstddef>\n#include <cstdint>\n#include <span>\n\n"
         "#include \"cpu_shaders/package/shader_types.h\"\n\n" +
-        open_namespaces() + "\n";
+        macros_aside() + open_namespaces() + "\n";
     text +=
         "// The same for all invocations; in float in double calls too. Textures and blocks stay the caller's.\nstruct "
         "Uniforms {\n" +
@@ -170,7 +171,7 @@ class HeaderWriter {
     } else {
       text += "// Not in double: " + r.no_float64_reason + "\n\n";
     }
-    return text + close_namespaces();
+    return text + close_namespaces() + macros_back();
   }
 
   std::string calls() const {
@@ -179,8 +180,9 @@ class HeaderWriter {
     for (const std::string& isa : isas_)
       text +=
           "extern const ShaderEntry " + entries(isa) + "[];\nextern const std::uint32_t " + entry_count(isa) + ";\n";
-    text += "}  // namespace twinshade\n\n" + open_namespaces() +
-            "namespace {\n\nnamespace package = twinshade::package;\n\n";
+    text += "}  // namespace twinshade\n\n";
+    for (const std::string& name : names()) text += "#undef " + name + "\n";  // a header above may have it as a macro
+    text += "\n" + open_namespaces() + "namespace {\n\nnamespace package = twinshade::package;\n\n";
     text += bound_struct() + rows_struct() + entry_functions();
     text += "}  // namespace\n\n" + definitions("Inputs", "Outputs", "float", "Number::scalar", "widest()");
     if (has_double())
@@ -195,6 +197,23 @@ class HeaderWriter {
     std::stable_sort(nodes.begin(), nodes.end(),
                      [&](const ValueNode& a, const ValueNode& b) { return place(a) < place(b); });
     return nodes;
+  }
+
+  // What the author may have called as some macro is called that headers before this one define.
+  std::set<std::string> names() const {
+    std::set<std::string> names;
+    for (const auto* nodes : {&uniforms_, &inputs_, &outputs_}) add_names(*nodes, names);
+    return names;
+  }
+  std::string macros_aside() const {
+    std::string text;
+    for (const std::string& name : names()) text += "#pragma push_macro(\"" + name + "\")\n#undef " + name + "\n";
+    return text.empty() ? "" : "// A macro that the program has must not replace a member's name.\n" + text + "\n";
+  }
+  std::string macros_back() const {
+    std::string text;
+    for (const std::string& name : names()) text += "#pragma pop_macro(\"" + name + "\")\n";
+    return text.empty() ? "" : "\n" + text;
   }
 
   bool has_double() const { return reflection_.no_float64_reason.empty(); }

@@ -11,7 +11,14 @@ namespace {
 
 constexpr const char* kOurs = "Uniforms BasicInputs BasicOutputs Real std twinshade";
 
-// By header, as C++20 lists them; glibc's beside them. <complex.h> has no I in C++.
+// Words of C that g++ or clang++ know in C++ too.
+constexpr const char* kWordsOfC =
+    "_Alignas _Alignof _Atomic _BitInt _Complex _Decimal32 _Decimal64 _Decimal128 _ExtInt _Float16 _Generic "
+    "_Imaginary _Nonnull _Noreturn _Null_unspecified _Nullable _Nullable_result _Pragma _Static_assert _Thread_local";
+
+// By header, as C++20 lists them; glibc's beside them: all of those that generated headers include, since no source
+// that includes one could name the member. Macros of other headers do no harm to declarations (cpp_header.cpp), and a
+// name that is once written in somebody's program stays: no others belong here. <complex.h> has no I in C++.
 constexpr const char* kMacros =
     // assert.h, stddef.h and what compilers define by themselves
     "NDEBUG NULL linux unix i386 "
@@ -23,6 +30,11 @@ constexpr const char* kMacros =
     "ENOSTR ENOSYS ENOTCONN ENOTDIR ENOTEMPTY ENOTRECOVERABLE ENOTSOCK ENOTSUP ENOTTY ENXIO EOPNOTSUPP EOVERFLOW "
     "EOWNERDEAD EPERM EPIPE EPROTO EPROTONOSUPPORT EPROTOTYPE ERANGE EROFS ESPIPE ESRCH ESTALE ETIME ETIMEDOUT "
     "ETXTBSY EWOULDBLOCK EXDEV "
+    "EADV EBADE EBADFD EBADR EBADRQC EBADSLT EBFONT ECHRNG ECOMM EDEADLOCK EDOTDOT EHOSTDOWN EHWPOISON EISNAM "
+    "EKEYEXPIRED EKEYREJECTED EKEYREVOKED EL2HLT EL2NSYNC EL3HLT EL3RST ELIBACC ELIBBAD ELIBEXEC ELIBMAX ELIBSCN "
+    "ELNRNG EMEDIUMTYPE EMULTIHOP ENAVAIL ENOANO ENOCSI ENOKEY ENOMEDIUM ENONET ENOPKG ENOTBLK ENOTNAM ENOTUNIQ "
+    "EPFNOSUPPORT EREMCHG EREMOTE EREMOTEIO ERESTART ERFKILL ESHUTDOWN ESOCKTNOSUPPORT ESRMNT ESTRPIPE ETOOMANYREFS "
+    "EUCLEAN EUNATCH EUSERS EXFULL "
     // fenv.h
     "FE_ALL_EXCEPT FE_DFL_ENV FE_DIVBYZERO FE_DOWNWARD FE_INEXACT FE_INVALID FE_OVERFLOW FE_TONEAREST FE_TOWARDZERO "
     "FE_UNDERFLOW FE_UPWARD "
@@ -36,8 +48,13 @@ constexpr const char* kMacros =
     "CHAR_BIT CHAR_MAX CHAR_MIN INT_MAX INT_MIN LLONG_MAX LLONG_MIN LONG_MAX LONG_MIN MB_LEN_MAX SCHAR_MAX SCHAR_MIN "
     "SHRT_MAX SHRT_MIN UCHAR_MAX UINT_MAX ULLONG_MAX ULONG_MAX USHRT_MAX "
     "NAME_MAX PATH_MAX PIPE_BUF SSIZE_MAX "
+    "BOOL_MAX BOOL_WIDTH CHAR_WIDTH INT_WIDTH LLONG_WIDTH LONG_WIDTH SCHAR_WIDTH SHRT_WIDTH UCHAR_WIDTH UINT_WIDTH "
+    "ULLONG_WIDTH ULONG_WIDTH USHRT_WIDTH "
     // locale.h
     "LC_ALL LC_COLLATE LC_CTYPE LC_MESSAGES LC_MONETARY LC_NUMERIC LC_TIME "
+    "LC_ADDRESS LC_ADDRESS_MASK LC_ALL_MASK LC_COLLATE_MASK LC_CTYPE_MASK LC_GLOBAL_LOCALE LC_IDENTIFICATION "
+    "LC_IDENTIFICATION_MASK LC_MEASUREMENT LC_MEASUREMENT_MASK LC_MESSAGES_MASK LC_MONETARY_MASK LC_NAME "
+    "LC_NAME_MASK LC_NUMERIC_MASK LC_PAPER LC_PAPER_MASK LC_TELEPHONE LC_TELEPHONE_MASK LC_TIME_MASK "
     // math.h
     "FP_FAST_FMA FP_FAST_FMAF FP_FAST_FMAL FP_ILOGB0 FP_ILOGBNAN FP_INFINITE FP_NAN FP_NORMAL FP_SUBNORMAL FP_ZERO "
     "HUGE_VAL HUGE_VALF HUGE_VALL INFINITY MATH_ERREXCEPT MATH_ERRNO NAN math_errhandling "
@@ -54,16 +71,24 @@ constexpr const char* kMacros =
     "UINT16_MAX UINT32_MAX UINT64_MAX UINT8_MAX UINTMAX_MAX UINTPTR_MAX UINT_FAST16_MAX UINT_FAST32_MAX "
     "UINT_FAST64_MAX UINT_FAST8_MAX UINT_LEAST16_MAX UINT_LEAST32_MAX UINT_LEAST64_MAX UINT_LEAST8_MAX WCHAR_MAX "
     "WCHAR_MIN WINT_MAX WINT_MIN "
+    "INT16_WIDTH INT32_WIDTH INT64_WIDTH INT8_WIDTH INTMAX_WIDTH INTPTR_WIDTH INT_FAST16_WIDTH INT_FAST32_WIDTH "
+    "INT_FAST64_WIDTH INT_FAST8_WIDTH INT_LEAST16_WIDTH INT_LEAST32_WIDTH INT_LEAST64_WIDTH INT_LEAST8_WIDTH "
+    "PTRDIFF_WIDTH SIG_ATOMIC_WIDTH SIZE_WIDTH UINT16_WIDTH UINT32_WIDTH UINT64_WIDTH UINT8_WIDTH UINTMAX_WIDTH "
+    "UINTPTR_WIDTH UINT_FAST16_WIDTH UINT_FAST32_WIDTH UINT_FAST64_WIDTH UINT_FAST8_WIDTH UINT_LEAST16_WIDTH "
+    "UINT_LEAST32_WIDTH UINT_LEAST64_WIDTH UINT_LEAST8_WIDTH WCHAR_WIDTH WINT_WIDTH "
     // stdio.h
     "BUFSIZ EOF FILENAME_MAX FOPEN_MAX L_tmpnam SEEK_CUR SEEK_END SEEK_SET TMP_MAX stderr stdin stdout P_tmpdir "
+    "L_ctermid L_cuserid RENAME_EXCHANGE RENAME_NOREPLACE RENAME_WHITEOUT SEEK_DATA SEEK_HOLE "
     // stdlib.h
     "EXIT_FAILURE EXIT_SUCCESS MB_CUR_MAX RAND_MAX "
+    "WCONTINUED WEXITED WNOHANG WNOWAIT WSTOPPED WUNTRACED "
     // time.h
     "CLOCKS_PER_SEC TIME_UTC CLOCK_MONOTONIC CLOCK_REALTIME "
     // wchar.h
     "WEOF "
-    // unistd.h and endian.h, which others include
+    // unistd.h, endian.h and sys/select.h, which others include
     "STDERR_FILENO STDIN_FILENO STDOUT_FILENO F_OK R_OK W_OK X_OK BIG_ENDIAN BYTE_ORDER LITTLE_ENDIAN "
+    "FD_SETSIZE NFDBITS PDP_ENDIAN "
     // atomic
     "ATOMIC_BOOL_LOCK_FREE ATOMIC_CHAR16_T_LOCK_FREE ATOMIC_CHAR32_T_LOCK_FREE ATOMIC_CHAR8_T_LOCK_FREE "
     "ATOMIC_CHAR_LOCK_FREE ATOMIC_FLAG_INIT ATOMIC_INT_LOCK_FREE ATOMIC_LLONG_LOCK_FREE ATOMIC_LONG_LOCK_FREE "
@@ -84,8 +109,9 @@ bool is_macro(const std::string& name) {
 }  // namespace
 
 bool is_reserved_name(const std::string& name) {
-  static const std::set<std::string> ours = words_of(kOurs);
-  return spirv::is_cpp_keyword(name) || is_macro(name) || ours.count(name) != 0;
+  static const std::set<std::string> words = words_of(std::string(kOurs) + " " + kWordsOfC);
+  // Two underscores begin what compilers have of their own: words, functions, macros that do not go away.
+  return spirv::is_cpp_keyword(name) || is_macro(name) || words.count(name) != 0 || name.rfind("__", 0) == 0;
 }
 
 std::string header_name_refusal(const std::string& name) {

@@ -1,7 +1,6 @@
 #include "cpu_shaders/package/value_tree.h"
 
 #include <algorithm>
-#include <set>
 
 #include "cpu_shaders/package/reserved_names.h"
 
@@ -112,6 +111,13 @@ void name_members(std::vector<ValueNode>& nodes, const std::vector<std::string>&
       node.struct_name += '_';
     taken.insert(node.struct_name);
     name_members(node.members, {}, node.struct_name);
+  }
+}
+
+void add_names(const std::vector<ValueNode>& nodes, std::set<std::string>& names) {
+  for (const ValueNode& node : nodes) {
+    if (node.cpp_name == node.name) names.insert(node.name);
+    add_names(node.members, names);
   }
 }
 

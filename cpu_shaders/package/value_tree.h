@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,9 @@ void add_value(std::vector<ValueNode>& nodes, const std::string& name, std::uint
 // the scope of `nodes` that are not the shader's. enclosing: the struct that they are members of.
 void name_members(std::vector<ValueNode>& nodes, const std::vector<std::string>& own,
                   const std::string& enclosing = "");
+
+// Adds the members' names, theirs too, where C++ has GLSL's.
+void add_names(const std::vector<ValueNode>& nodes, std::set<std::string>& names);
 
 // The C++ expression of a leaf. name: as add_value got it.
 std::string cpp_path(const std::vector<ValueNode>& nodes, const std::string& name);

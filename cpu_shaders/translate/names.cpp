@@ -22,7 +22,8 @@ const std::set<std::string>& keywords() {
       "static_cast", "struct",    "switch",     "template",  "this",     "thread_local", "throw",
       "true",        "try",       "typedef",    "typeid",    "typename", "union",        "unsigned",
       "using",       "virtual",   "void",       "volatile",  "wchar_t",  "while",        "xor",
-      "xor_eq",      "final",     "override",   "std",       "main",     "NULL",         "assert"};
+      "xor_eq",      "final",     "override",   "std",       "main",     "NULL",         "assert",
+      "typeof"};
   return words;
 }
 
@@ -162,8 +163,8 @@ const std::set<std::string>& reserved() {
   return words;
 }
 
-// What the headers of C and its compilers define as macros differs; all but these few are in capitals. Seen with
-// g++ 12, clang 14 and glibc 2.36.
+// What the headers of C and its compilers define as macros differs; all but these few and ours are in capitals. Seen
+// with g++ 12, clang 14 and glibc 2.36.
 bool may_be_a_macro(const std::string& name) {
   static const std::set<std::string> in_small_letters = {
       "L_ctermid", "L_cuserid", "L_tmpnam", "P_tmpdir", "alloca",  "be16toh", "be32toh", "be64toh",
@@ -171,7 +172,8 @@ bool may_be_a_macro(const std::string& name) {
       "le32toh",   "le64toh",   "linux",    "offsetof", "stderr",  "stdin",   "stdout",  "strdupa",
       "strndupa",  "unix",      "va_arg",   "va_copy",  "va_end",  "va_start"};
   const auto is_small = [](char c) { return c >= 'a' && c <= 'z'; };
-  return (name.size() > 1 && std::none_of(name.begin(), name.end(), is_small)) || in_small_letters.count(name) != 0;
+  return (name.size() > 1 && std::none_of(name.begin(), name.end(), is_small)) || in_small_letters.count(name) != 0 ||
+         name.rfind("TWINSHADE_", 0) == 0;
 }
 
 }  // namespace

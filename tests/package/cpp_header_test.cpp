@@ -143,6 +143,26 @@ TEST_CASE("names are unique in their scope and GLSL's where they can be") {
   CHECK(cpp_path(nodes, "new") == "new__");
 }
 
+TEST_CASE("names that only compilers know as words get underscores, others with underscores in front stay") {
+  for (const char* name : {"typeof", "_Alignas", "_Complex", "__is_class", "__FILE__", "INT_WIDTH", "LC_NAME"})
+    CHECK_MESSAGE(is_reserved_name(name), name);
+  for (const char* name : {"_MainTex", "_Color", "_x", "a__b", "SYS_read", "EXPOSURE", "emit", "LC_TABLE"})
+    CHECK_MESSAGE(!is_reserved_name(name), name);
+}
+
+TEST_CASE("macros of the author's names are put aside and put back, those of names that C++ has otherwise are not") {
+  const CppHeader typed = header_of(
+      "struct S { float emit; };\nuniform S s;\nuniform float EOF;\nin float near;\nout float far;\n"
+      "void main() { far = s.emit + EOF + near; }\n");
+  for (const char* name : {"emit", "s", "near", "far"}) {
+    const std::string undef = std::string("#undef ") + name + "\n", quoted = std::string("macro(\"") + name + "\")\n";
+    CHECK(comes_before(typed.header, "#pragma push_" + quoted + undef, "struct Uniforms"));
+    CHECK(comes_before(typed.header, "OutputsDouble> outputs);", "#pragma pop_" + quoted));
+    CHECK(comes_before(typed.calls, undef, "struct Bound"));
+  }
+  CHECK(typed.header.find("macro(\"EOF") == std::string::npos);
+}
+
 TEST_CASE("an output named discarded keeps its name where nothing is discarded") {
   const std::string shader = "in float x;\nout float discarded;\nvoid main() { discarded = x; }\n";
   CHECK(header_of(shader).header.find(" Real discarded{};") != std::string::npos);

@@ -82,6 +82,8 @@ TEST_CASE("names that the translator makes keep clear of a shader's and of macro
   CHECK(names.declare_own("uniform_S") == "uniform_S_2");
   CHECK(names.declare("S_") == "S_");
   CHECK(names.declare("S_") == "S_2");
+  for (const char* name : {"INT_WIDTH", "linux", "typeof", "TWINSHADE_ISA_NUMBER_avx2"})
+    CHECK(names.declare(name) == std::string(name) + "_");
 }
 
 }  // namespace twinshade

@@ -132,7 +132,7 @@ class CompareRun {
       reference = draw(a, shader, native || (on_softpipe && a == "cpu"));
     } catch (const UserError& error) {
       if (!wants_all(verb_.shading)) throw;
-      skipped_.emplace_back(shader.technique, error.what());
+      skip(shader, error.what());
       return;
     } catch (const BackendError& error) {
       for (std::size_t i = 1; i < verb_.backends.size(); ++i) fail(shader, a, verb_.backends[i], error.what());
@@ -155,8 +155,7 @@ class CompareRun {
 
   void compare_on_softpipe(const Shading& shader, const std::string& a, const Frame& reference) {
     if (machines_.uses_derivatives(shader.source)) {
-      skipped_.emplace_back(shader.technique,
-                            "softpipe: the shader takes derivatives, whose neighbours there are of other triangles");
+      skip(shader, "softpipe: the shader takes derivatives, whose neighbours there are of other triangles");
       return;
     }
     const Frame drawn = a == "cpu" ? Frame() : draw("cpu", shader, true);
@@ -230,6 +229,12 @@ class CompareRun {
 
   // Pictures are of the first output.
   bool pictured() const { return !several_outputs_ || output_at_.location == first_location_; }
+
+  // Once, though each output and each way to read the light may meet it.
+  void skip(const Shading& shader, const std::string& reason) {
+    const std::pair<std::string, std::string> skipped(shader.technique, reason);
+    if (std::find(skipped_.begin(), skipped_.end(), skipped) == skipped_.end()) skipped_.push_back(skipped);
+  }
 
   void fail(const Shading& shader, const std::string& a, const std::string& b, const std::string& reason) {
     Row row = row_of(shader, a, b);

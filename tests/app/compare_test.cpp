@@ -87,6 +87,27 @@ TEST_CASE("softpipe shades the CPU's pixels to the same bits") {
   }
 }
 
+TEST_CASE("softpipe is left out once for a shader that takes derivatives, however many outputs it has") {
+  const Folder folder;
+  const std::string shader =
+      folder.file("slopes.frag",
+                  "#version 450\nin vec2 v_uv;\nlayout(location = 0) out vec4 a;\nlayout(location = 1) out vec4 b;\n"
+                  "void main() { a = vec4(dFdx(v_uv), 0.0, 1.0); b = vec4(1.0); }\n");
+  const std::string reason = "softpipe: the shader takes derivatives";
+  // The only backend: that is all there is to say.
+  const Run alone = run_twinshade(small_quad({"compare"}, {"--shader", shader, "--on", "cpu,softpipe"}));
+  CHECK(alone.code == 2);
+  CHECK(alone.err.find(reason) != std::string::npos);
+  CHECK(alone.err.find(reason) == alone.err.rfind(reason));
+  for (const std::string& backend : opengl_backends()) {
+    const Run run = run_twinshade(
+        small_quad({"compare"}, {"--shader", shader, "--on", "cpu," + backend + ",softpipe", "--json", "-"}));
+    REQUIRE(run.json()["skipped"].size() == 1);
+    CHECK(run.json()["skipped"][0]["reason"].get<std::string>().find(reason) == 0);
+    CHECK(run.json()["results"].size() == 2);
+  }
+}
+
 TEST_CASE("a sum that a driver may refactor is found, and layer, pixel, inputs and ULP are named") {
   const std::vector<std::string> opengl = opengl_backends();
   if (opengl.empty()) return;

@@ -87,22 +87,25 @@ std::set<std::string> new_keywords(const TokenList& list, const ShaderSource& so
   return names;
 }
 
-std::set<std::string> new_functions(const TokenList& list, const ShaderSource& source) {
-  const auto is_new = [&](const std::string& name) {
-    return std::any_of(std::begin(kNewFunctions), std::end(kNewFunctions), [&](const FunctionsVersion& functions) {
-      return source.version < (source.es ? functions.es_version : functions.version) &&
-             find_word(functions.names, name) != std::string::npos;
-    });
-  };
-  std::set<std::string> names;
+std::map<std::string, std::size_t> declared_functions(const std::vector<Token>& tokens) {
+  std::map<std::string, std::size_t> functions;
   int depth = 0;  // of braces: functions are declared outside all
-  const std::vector<Token>& tokens = list.tokens;
   for (std::size_t i = 1; i + 1 < tokens.size(); ++i) {
     depth += (tokens[i].text == "{") - (tokens[i].text == "}");
     const bool behind_type = tokens[i - 1].kind == Token::Kind::name || tokens[i - 1].text == "]";
-    const bool declared = depth == 0 && behind_type && tokens[i].kind == Token::Kind::name && tokens[i + 1].text == "(";
-    if (declared && is_new(tokens[i].text)) names.insert(tokens[i].text);
+    if (depth == 0 && behind_type && tokens[i].kind == Token::Kind::name && tokens[i + 1].text == "(")
+      functions.emplace(tokens[i].text, i);
   }
+  return functions;
+}
+
+std::set<std::string> new_functions(const std::vector<Token>& tokens, const ShaderSource& source) {
+  std::set<std::string> names;
+  for (const auto& [name, token] : declared_functions(tokens))
+    for (const FunctionsVersion& functions : kNewFunctions)
+      if (source.version < (source.es ? functions.es_version : functions.version) &&
+          find_word(functions.names, name) != std::string::npos)
+        names.insert(name);
   return names;
 }
 

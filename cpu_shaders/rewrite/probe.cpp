@@ -447,7 +447,7 @@ ProbedShader add_probes(const ShaderSource& source, const std::optional<std::set
   if (!only) compile_glsl(source);  // the parser relies on valid GLSL
   const TokenList tokens = tokens_to_parse(source);
   Probe probe(tokens, only);
-  if (source.es) probe.rename(new_functions(tokens, source));
+  if (source.es) probe.rename(new_functions(tokens.tokens, source));
   probe.read();
 
   ProbedShader result;

@@ -1,14 +1,18 @@
 #include "raster/gl/author_names.h"
 
 #include <cctype>
+#include <set>
 #include <string_view>
 
 #include "cpu_shaders/rewrite/new_keywords.h"
 
 namespace twinshade::gl {
 
-void rename_new_keywords(const ShaderSource& source, std::vector<Token>& tokens) {
+void rename_new_words(const ShaderSource& source, std::vector<Token>& tokens) {
+  const std::set<std::string> functions = new_functions(tokens, source);
   for (const std::size_t at : new_keyword_tokens(tokens, source)) tokens[at].text = kNamePrefix + tokens[at].text;
+  for (Token& token : tokens)  // members and variables of that name, too: reflection has the author's
+    if (functions.count(token.text) != 0) token.text = kNamePrefix + token.text;
 }
 
 std::string author_name(std::string name) {

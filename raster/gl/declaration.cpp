@@ -218,7 +218,7 @@ std::vector<Declaration> split_declarations(const ShaderSource& source, const st
 
 std::vector<std::string> initialized_uniforms(const ShaderSource& source) {
   std::vector<Token> tokens = tokenize(source).tokens;
-  rename_new_keywords(source, tokens);
+  rename_new_words(source, tokens);
   std::vector<std::string> names;
   for (const Declaration& d : split_declarations(source, tokens)) {
     if (d.kind != Declaration::Kind::variables ||

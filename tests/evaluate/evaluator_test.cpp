@@ -118,6 +118,20 @@ TEST_CASE("inputs, outputs, uniforms and blocks may have names that became keywo
   CHECK(value_at(rows.outputs[0], 1, 2) == 7);
 }
 
+TEST_CASE("functions may have names that became built-in functions after the shader's version") {
+  const std::string text =
+      "#version 330\nin float x;\nstruct S { float findLSB; };\nuniform S bitfieldExtract;\n"
+      "layout(location = 0) out vec4 r;\nfloat ldexp(float x, float n) { return x + n; }\n"
+      "int bitCount(float x) { return 7; }\nfloat interpolateAtOffset(float x, vec2 by) { return x + by.x; }\n"
+      "float dFdxFine(float x) { return 2.0 * x; }\nfloat findLSB(float x) { return x; }\n"
+      "void main() { r = vec4(ldexp(x, 2), bitCount(3) + findLSB(bitfieldExtract.findLSB), "
+      "interpolateAtOffset(x, vec2(1, 2)), dFdxFine(x)); }\n";
+  const EvaluatedRows rows = same_everywhere(
+      fragment(text), {1, {floats("x", "float", {5})}, {floats("bitfieldExtract.findLSB", "float", {4})}, {}, {}});
+  const std::vector<double> expected = {7, 11, 6, 10};
+  for (std::uint32_t k = 0; k < 4; ++k) CHECK(value_at(rows.outputs.at(0), 0, k) == expected[k]);
+}
+
 TEST_CASE("uniforms that differ by row are what each row sees") {
   ValueTable table{5, {floats("x", "float", {1, 2, 3, 4, 5})}, {floats("k", "float", {10, 20, 10, 20, 30})}, {}, {}};
   const EvaluatedRows rows =

@@ -197,6 +197,31 @@ TEST_CASE("names that later versions made keywords are renamed in older shaders"
                  "precise float a"));
 }
 
+TEST_CASE("functions that later versions made built-in ones are the author's in older shaders") {
+  const std::string text =
+      "int bitCount(float x) { return 7; }\nfloat interpolateAtCentroid(float x) { return x; }\n"
+      "float dFdxFine(float x);\nuniform float findMSB = 1.0;\nout float c;\n"
+      "void main() { c = interpolateAtCentroid(float(bitCount(3))) + dFdxFine(findMSB); }\n"
+      "float dFdxFine(float x) { return x; }\n";
+  const FragmentShader older = globals("#version 330\n" + text);
+  CHECK(contains(tokens_of(older.text), "int twinshade_name_bitCount ( float x )"));
+  CHECK(contains(tokens_of(older.text), "c = twinshade_name_interpolateAtCentroid ( float ( twinshade_name_bitCount"));
+  CHECK(older.derivative.empty());
+  // In a version that has them, the author's hide them.
+  const FragmentShader newer = globals(text);
+  CHECK(contains(tokens_of(newer.text), "c = interpolateAtCentroid ( float ( bitCount ( 3 ) ) ) + dFdxFine"));
+  CHECK(newer.derivative.empty());
+  CHECK(contains(rejection("in float a;\nfloat f() { return interpolateAtCentroid(a); }\n"
+                           "float interpolateAtCentroid(float x) { return x; }\n" +
+                           kMain),
+                 ":2: interpolateAtCentroid needs native attributes"));
+  CHECK(globals("uniform float dFdx;\nout float c;\nvoid main() { float interpolateAtSample = 1.0; "
+                "c = dFdx + interpolateAtSample; }\n")
+            .derivative.empty());
+  CHECK(initialized_uniforms(shader("#version 330\nuniform float bitCount = 1.0;\n")) ==
+        std::vector<std::string>{"bitCount"});
+}
+
 TEST_CASE("products of 64 bits go through functions that hide their factors from Mesa") {
   const std::string call =
       "void main() { uint h, l; if (true) umulExtended(3u, 1u, h, l); else umulExtended(1u, h, h, l); }\n";

@@ -53,7 +53,7 @@ struct Expression {
   std::optional<long> integer;  // value, where it is a plain integer constant
   bool precise = false;         // assign and declaration: the target is `precise`; lvalues: their variable is
   bool has_effect = false;      // assign, call, or a built-in function that writes an argument or memory
-  std::vector<bool> written;    // call: arguments that are out or inout
+  std::vector<bool> written;    // call, and of built-in functions modf and the like: arguments that are out or inout
   bool converts = false;        // call: some argument's type is not its parameter's
   std::optional<std::size_t> const_token;  // declaration: its `const`
   bool is_uniform = false;                 // declaration

@@ -410,8 +410,11 @@ ExpressionPtr Parser::invocation(std::size_t name, GlslType constructed) {
     made->constant = false;
   } else {
     made->type = builtin_result(*made);
-    made->has_effect = first_written(*made) < made->operands.size() || made->text.starts_with("imageAtomic");
-    for (std::size_t i = first_written(*made); i < made->operands.size(); ++i) stored(*made->operands[i], nullptr);
+    const std::size_t first = first_written(*made);
+    made->has_effect = first < made->operands.size() || made->text.starts_with("imageAtomic");
+    for (std::size_t i = first; i < made->operands.size(); ++i) stored(*made->operands[i], nullptr);
+    // What an atomic function leaves in memory is another invocation's as much as this one's.
+    for (std::size_t i = 0; first > 0 && i < made->operands.size(); ++i) made->written.push_back(i >= first);
   }
   return spanning(std::move(made), name);
 }

@@ -210,13 +210,17 @@ class Probe : public Listener {
       else
         complete_ = false;
     }
-    if (e.kind != Kind::call) return;
+    // A function of the shader may compute anything, a built-in one does with floats what it is given of these.
+    const bool computed =
+        e.kind == Kind::call || std::any_of(e.operands.begin(), e.operands.end(), [](const ExpressionPtr& operand) {
+          return may_hold_floats(operand->type) || computes(*operand);
+        });
     for (std::size_t i = 0; i < e.operands.size() && i < e.written.size(); ++i) {
       if (!e.written[i]) continue;
       const Expression& argument = *e.operands[i];
       if (is_repeatable(argument))
         add({place_text(argument), written(argument.first, argument.last), argument.type, e.first, e.last, false,
-             true});
+             computed});
       else
         complete_ = false;
     }

@@ -88,6 +88,14 @@ TEST_CASE("what a condition, a selector, a result or an argument stores is named
               6, "argument 1 of f");
 }
 
+TEST_CASE("what a built-in function writes is named where it is called") {
+  check_first(
+      "void main() {\n  float whole; float part;\n  part = modf(a.y, whole);\n"
+      "  part = 0.0 * modf(a.x * a.y * a.z * 1099511627776.0, whole);\n"
+      "  c = vec4(whole);\n}\n",
+      5, "whole");
+}
+
 TEST_CASE("values keep their type") {
   const FirstLine found = first_line_of(
       "void main() {\n  uint bits = floatBitsToUint(-(a.x * a.y * a.z));\n  c = vec4(uintBitsToFloat(bits)); }\n");

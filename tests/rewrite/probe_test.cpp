@@ -115,6 +115,29 @@ TEST_CASE("what a statement declares outlives the probes of what its calls wrote
   CHECK(names(shader, 4, "whole, part"));
 }
 
+TEST_CASE("what built-in functions write is told where they are called") {
+  const ProbedShader shader = compiling_probes(
+      resolve_shader("t",
+                     "in vec4 a; flat in uvec2 u; out vec4 c; float f(float x) { return x; }\n"
+                     "void main() { float whole; vec2 w[2]; ivec2 e; uint high, low;\n"
+                     " float part = modf(a.x, whole);\n"
+                     " modf(a.xy, w[1]);\n"
+                     " vec2 m = frexp(a.zw, e);\n"
+                     " if (uaddCarry(u.x, u.y, high) > 3u) part = 1.0;\n"
+                     " umulExtended(u.x, u.y, high, low);\n"
+                     " c = vec4(part, whole, f(modf(a.y, whole)), float(low) + w[1].x + m.x + float(e.x)); }\n",
+                     "t.frag"));
+  CHECK(names(shader, 3, "whole, part"));
+  CHECK(names(shader, 4, "w[1]"));
+  CHECK(names(shader, 5, "e, m"));
+  CHECK(names(shader, 6, "high"));
+  CHECK(names(shader, 7, "high, low"));
+  CHECK(names(shader, 8, "whole, c"));
+  CHECK(shader.complete);
+  for (const ProbedStatement& statement : shader.statements)
+    if (statement.line == 4 || statement.line == 7) CHECK(statement.computes == (statement.line == 4));
+}
+
 TEST_CASE("globals are told at their own lines, wherever functions stand") {
   const ShaderSource source = resolve_shader("t",
                                              "in vec4 a; out vec4 c; float f(float x) { return x; }\n"

@@ -91,7 +91,7 @@ EnvironmentSampler::EnvironmentSampler(const Environment& environment) {
 
   // The rest as a cube, each texel the mean of points in it
   constexpr int kPoints = 4;  // across
-  face_size_ = std::clamp<std::uint32_t>(width / 4, 16, 512);
+  face_size_ = std::clamp<std::uint32_t>(std::max(width / 4, height / 2), 16, 512);
   const std::size_t face_texels = std::size_t(face_size_) * face_size_;
   faces_.resize(6 * face_texels);
   parallel_for(std::size_t(6) * face_size_, [&](std::size_t row, int) {

@@ -26,6 +26,54 @@ dvec3 direction(const dvec2& longitude, const dvec2& colatitude) {
   return {longitude.x * colatitude.x, colatitude.y, longitude.y * colatitude.x};
 }
 
+// Pixel i of `count` is a mean of pixels first to first + weights.size() - 1 of `old_count`.
+struct Mean {
+  std::uint32_t first;
+  std::vector<double> weights;
+};
+
+// edge(i, n): where pixel i of n begins, in what means are weighed by; it rises with i / n.
+template <class Edge>
+std::vector<Mean> means(std::uint32_t old_count, std::uint32_t count, Edge edge) {
+  std::vector<Mean> result(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    // By integers which pixels overlap: i / count < (k + 1) / old_count and k / old_count < (i + 1) / count
+    result[i].first = std::uint32_t(std::uint64_t{i} * old_count / count);
+    const std::uint32_t last = std::uint32_t(((std::uint64_t{i} + 1) * old_count - 1) / count);
+    const double low = edge(i, count), high = edge(i + 1, count);
+    double sum = 0;
+    for (std::uint32_t k = result[i].first; k <= last; ++k) {
+      const double overlap = std::min(high, edge(k + 1, old_count)) - std::max(low, edge(k, old_count));
+      result[i].weights.push_back(std::max(overlap, 0.0));
+      sum += result[i].weights.back();
+    }
+    for (double& weight : result[i].weights) weight /= sum;
+  }
+  return result;
+}
+
+// Pixels are means of what they overlap, weighed by solid angle.
+Environment resized(const Environment& environment, std::uint32_t width, std::uint32_t height) {
+  if (environment.width == width && environment.height == height) return environment;
+  const std::vector<Mean> columns =
+      means(environment.width, width, [](std::uint32_t i, std::uint32_t n) { return double(i) / n; });
+  const std::vector<Mean> rows = means(environment.height, height, [](std::uint32_t i, std::uint32_t n) {
+    return i == n ? 1.0 : -portable::cos(kPi * i / n);  // the sine of the latitude, southwards
+  });
+  Environment result{environment.name, width, height, {}};
+  result.radiance.reserve(std::size_t(width) * height);
+  for (const Mean& row : rows)
+    for (const Mean& column : columns) {
+      dvec3 sum(0);
+      for (std::size_t j = 0; j < row.weights.size(); ++j)
+        for (std::size_t i = 0; i < column.weights.size(); ++i)
+          sum += dvec3(environment.radiance[(row.first + j) * environment.width + column.first + i]) *
+                 (row.weights[j] * column.weights[i]);
+      result.radiance.push_back(glm::vec3(sum));
+    }
+  return result;
+}
+
 std::uint32_t wrap(std::int64_t x, std::uint32_t width) {
   const std::int64_t rest = x % std::int64_t(width);
   return std::uint32_t(rest < 0 ? rest + width : rest);
@@ -106,32 +154,29 @@ Environment rotate_environment(const Environment& environment, double degrees) {
   return result;
 }
 
-Environment refine_environment(const Environment& environment, std::uint32_t height) {
-  if (environment.height == 0 || environment.height >= height) return environment;
-  const std::uint32_t times = (height + environment.height - 1) / environment.height;
+Environment refine_environment(const Environment& environment, std::uint32_t width, std::uint32_t height) {
+  if (environment.radiance.empty()) return environment;
+  const std::uint32_t columns = std::max(1u, (width + environment.width - 1) / environment.width);
+  const std::uint32_t rows = std::max(1u, (height + environment.height - 1) / environment.height);
   Environment result = environment;
-  result.width *= times;
-  result.height *= times;
+  result.width *= columns;
+  result.height *= rows;
   result.radiance.resize(std::size_t(result.width) * result.height);
   for (std::uint32_t y = 0; y < result.height; ++y)
     for (std::uint32_t x = 0; x < result.width; ++x)
       result.radiance[std::size_t(y) * result.width + x] =
-          environment.radiance[std::size_t(y / times) * environment.width + x / times];
+          environment.radiance[std::size_t(y / rows) * environment.width + x / columns];
   return result;
 }
 
 Environment blend_environments(const Environment& a, const Environment& b, double part) {
   if (!(part >= 0 && part <= 1)) throw UserError("blend of environments must be from 0 to 1");
-  const bool same_size = a.width == b.width && a.height == b.height;
-  Environment result = a;
+  const std::uint32_t width = std::max(a.width, b.width), height = std::max(a.height, b.height);
+  Environment result = resized(a, width, height);
+  const Environment to = resized(b, width, height);
   result.name = a.name + " + " + b.name;
-  for (std::uint32_t y = 0; y < a.height; ++y)
-    for (std::uint32_t x = 0; x < a.width; ++x) {
-      const std::size_t pixel = std::size_t(y) * a.width + x;
-      const dvec3 from(a.radiance[pixel]);
-      const dvec3 to = same_size ? dvec3(b.radiance[pixel]) : b.radiance_towards(a.pixel_direction(x, y));
-      result.radiance[pixel] = glm::vec3(from * (1 - part) + to * part);
-    }
+  for (std::size_t pixel = 0; pixel < result.radiance.size(); ++pixel)
+    result.radiance[pixel] = glm::vec3(dvec3(result.radiance[pixel]) * (1 - part) + dvec3(to.radiance[pixel]) * part);
   return result;
 }
 

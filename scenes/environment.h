@@ -34,9 +34,9 @@ class PixelDirections {
   std::vector<glm::dvec2> longitudes_, colatitudes_;  // sine, cosine
 };
 
-// Where it has fewer rows than `height`: each pixel as several of its radiance. Pixels count as lights in the direction
-// of their centres in some integrals and are interpolated in others; large ones differ between the two.
-Environment refine_environment(const Environment& environment, std::uint32_t height);
+// With at least so many columns and rows: each pixel as several of its radiance. Pixels count as lights in the
+// direction of their centres in some integrals and are interpolated in others; large ones differ between the two.
+Environment refine_environment(const Environment& environment, std::uint32_t width, std::uint32_t height);
 
 // "sky", "studio", "window", "constant", or a .hdr/.exr file. UserError: unknown name (nearest suggested), unreadable
 // or truncated file, NaN, infinite, negative radiance or one above 1e30 (naming the pixel; clamp_radiance replaces NaN
@@ -44,8 +44,8 @@ Environment refine_environment(const Environment& environment, std::uint32_t hei
 Environment load_environment(const std::string& name_or_path, bool clamp_radiance = false);
 // Rotated about Y, counter-clockwise seen from above, by resampling on lookup: same size.
 Environment rotate_environment(const Environment& environment, double degrees);
-// a + (b - a) * part, pixel by pixel of a; b is looked up at the pixels' centres where its size is another. 0 <= part
-// <= 1.
+// a + (b - a) * part, 0 <= part <= 1. Where their sizes differ, with the larger width and height of the two, whose
+// pixels are means of a's and b's: no light is lost or gained.
 Environment blend_environments(const Environment& a, const Environment& b, double part);
 std::vector<std::string> environment_names();
 std::string environment_hash(const Environment& environment);

@@ -27,7 +27,7 @@ TEST_CASE("a constant environment: solid angles add up to the sphere, irradiance
 }
 
 TEST_CASE("a refined picture of one pixel is light from everywhere") {
-  const Environment refined = refine_environment({"one", 1, 1, {glm::vec3(0.5f)}}, 64);
+  const Environment refined = refine_environment({"one", 1, 1, {glm::vec3(0.5f)}}, 64, 64);
   CHECK(environment_radiance(refined, 1)[0] == doctest::Approx(0.5 * std::sqrt(4 * pi)).epsilon(1e-7));
   const glm::dvec3 normals[] = {{0, 1, 0}, {0.6, 0, 0.8}};
   for (const double e : environment_irradiance(refined, normals)) CHECK(e == doctest::Approx(0.5 * pi).epsilon(1e-2));

@@ -39,12 +39,40 @@ dvec3 turned(const dvec3& d, double degrees) {
 TEST_CASE("refining gives every pixel several of its radiance, and leaves what is fine enough as it is") {
   Environment environment{"small", 3, 2, {}};
   for (int i = 0; i < 6; ++i) environment.radiance.push_back(glm::vec3(float(i), 1, 2));
-  const Environment fine = refine_environment(environment, 5);
+  const Environment fine = refine_environment(environment, 8, 5);
   CHECK(fine.width == 9);
   CHECK(fine.height == 6);
   for (std::uint32_t y = 0; y < 6; ++y)
     for (std::uint32_t x = 0; x < 9; ++x) CHECK(fine.radiance[y * 9 + x] == environment.radiance[y / 3 * 3 + x / 3]);
-  CHECK(refine_environment(fine, 6).radiance == fine.radiance);
+  CHECK(refine_environment(fine, 9, 6).radiance == fine.radiance);
+  CHECK(refine_environment(environment, 0, 4).width == 3);
+}
+
+TEST_CASE("environments of different sizes blend without losing light, whichever comes first") {
+  // A sun of one pixel: between the pixel centres of all but the finest
+  Environment sun{"sun", 160, 90, std::vector<glm::vec3>(160 * 90, glm::vec3(0.25f))};
+  sun.radiance[31 * 160 + 55] = glm::vec3(1000, 500, 250);
+  const auto flux = [](const Environment& e) {
+    dvec3 sum(0);
+    for (std::uint32_t y = 0; y < e.height; ++y)
+      for (std::uint32_t x = 0; x < e.width; ++x) sum += dvec3(e.radiance[y * e.width + x]) * e.pixel_solid_angle(y);
+    return sum;
+  };
+  for (const glm::uvec2 size : {glm::uvec2(1), glm::uvec2(64, 32), glm::uvec2(37, 200), glm::uvec2(512, 256)}) {
+    const std::uint32_t width = size.x, height = size.y;
+    CAPTURE(width);
+    const Environment plain{"plain", width, height, std::vector<glm::vec3>(width * height, glm::vec3(2))};
+    for (const double part : {0.0, 0.25, 1.0}) {
+      const Environment there = blend_environments(plain, sun, part), back = blend_environments(sun, plain, 1 - part);
+      CHECK(there.width == std::max(width, 160u));
+      CHECK(there.height == std::max(height, 90u));
+      CHECK(there.radiance == back.radiance);
+      const dvec3 expected = flux(plain) * (1 - part) + flux(sun) * part, given = flux(there);
+      for (int c = 0; c < 3; ++c) CHECK(given[c] == doctest::Approx(expected[c]).epsilon(1e-6));
+    }
+  }
+  const Environment whole = blend_environments({"plain", 8, 4, std::vector<glm::vec3>(32)}, sun, 1);
+  CHECK(whole.radiance == sun.radiance);
 }
 
 TEST_CASE("lat-long follows OpenEXR: zenith in row 0, longitude pi at the left edge") {

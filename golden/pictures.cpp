@@ -85,7 +85,8 @@ Rgb difference_color(const Frame& a, const Frame& b, std::size_t pixel) {
 unsigned char display_value(double radiance, double exposure, Tonemap tonemap) {
   if (!(radiance > 0)) return 0;
   const double exposed = radiance * portable::exp2(exposure);
-  const double toned = std::isinf(exposed) ? 1.0 : std::min(tone_curve(exposed, tonemap), 1.0);
+  // Far above what is white in every curve, and before the curves' squares overflow
+  const double toned = std::min(tone_curve(std::min(exposed, 1e100), tonemap), 1.0);
   return static_cast<unsigned char>(std::floor(srgb_encoded(toned) * 255 + 0.5));
 }
 

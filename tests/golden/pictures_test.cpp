@@ -110,7 +110,11 @@ TEST_CASE("PNG is sRGB") {
   CHECK(display_value(NAN, 0, Tonemap::none) == 0);
   CHECK(display_value(-1, 0, Tonemap::aces) == 0);
   for (const Tonemap tonemap : {Tonemap::none, Tonemap::reinhard, Tonemap::aces}) {
-    CHECK(display_value(std::numeric_limits<double>::infinity(), 0, tonemap) == 255);
+    for (const double bright : {1e20, 1e150, 1e160, 1e308, std::numeric_limits<double>::infinity()}) {
+      CAPTURE(bright);
+      CHECK(display_value(bright, 0, tonemap) == 255);
+    }
+    CHECK(display_value(1e30, 900, tonemap) == 255);  // an exposure that takes it beyond the curves' squares
     int last = 0;
     for (double v = 0; v < 40; v += 0.01) {  // a tone curve never darkens what is brighter
       const int now = display_value(v, 0, tonemap);

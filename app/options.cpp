@@ -166,6 +166,9 @@ void add_parsed(CLI::App& command, const std::string& name, const std::string& s
   command.add_option_function<std::string>(name, std::move(parse), description)->type_name(shape);
 }
 
+// Of the verbs, those that draw with one technique alone have one as their default.
+bool draws_one(const std::string& default_techniques) { return default_techniques != "all"; }
+
 }  // namespace
 
 void add_common_options(CLI::App& command, CommonOptions& options) {
@@ -231,7 +234,8 @@ void add_subject_options(CLI::App& command, SubjectOptions& options) {
                if (!(options.blend >= 0 && options.blend <= 1))
                  throw UserError("--blend " + text + ": must be from 0 to 1");
              }));
-  add_parsed(command, "--map-width", "N", "texels across a layer of the tables' sphere map (default: 32)",
+  add_parsed(command, "--map-width", "N",
+             "texels across a layer of the tables' sphere map (default: 32, of octahedral maps 33)",
              given("--map-width", [&](const std::string& text) {
                options.visibility.map_width = parse_between("--map-width", text, 1, kWidestMap);
              }));
@@ -263,28 +267,35 @@ void add_subject_options(CLI::App& command, SubjectOptions& options) {
 }
 
 void add_technique_option(CLI::App& command, ShadingOptions& options, const std::string& default_techniques) {
+  const bool one = draws_one(default_techniques);
   options.techniques = {default_techniques};
-  command.add_option("--technique", options.techniques, "techniques, or all (default: " + default_techniques + ")")
+  command
+      .add_option("--technique", options.techniques,
+                  (one ? "technique (default: " : "techniques, or all (default: ") + default_techniques + ")")
       ->delimiter(',')
-      ->type_name("T,...");
-  command.add_option("--map", options.maps, "sphere maps of techniques that look up tables, or all (default: cube)")
+      ->type_name(one ? "T" : "T,...");
+  command
+      .add_option("--map", options.maps,
+                  one ? "sphere map of a technique that looks up tables (default: cube)"
+                      : "sphere maps of techniques that look up tables, or all (default: cube)")
       ->delimiter(',')
-      ->type_name("M,...");
+      ->type_name(one ? "M" : "M,...");
   command.parse_complete_callback([&command, &options] {
     require_read_by_technique(command, options);
     require_light_of_shader(options);
   });
 }
 
-void add_light_option(CLI::App& command, ShadingOptions& options) {
-  add_parsed(command, "--light", "auto|lightmap|vertex|volume|all",
-             "where techniques read their light from; all: from each that they can (default: auto)",
+void add_light_option(CLI::App& command, ShadingOptions& options, bool one) {
+  add_parsed(command, "--light", one ? "auto|lightmap|vertex|volume" : "auto|lightmap|vertex|volume|all",
+             one ? "where the technique reads its light from (default: auto)"
+                 : "where techniques read their light from; all: from each that they can (default: auto)",
              [&](const std::string& text) { options.light = LightSource(index_of(kLightNames, "light", text)); });
 }
 
 void add_shading_options(CLI::App& command, ShadingOptions& options, const std::string& default_techniques) {
   add_technique_option(command, options, default_techniques);
-  add_light_option(command, options);
+  add_light_option(command, options, draws_one(default_techniques));
   command.add_option("--shader", options.shader, "draw with this fragment shader instead of a technique")
       ->type_name("MY.frag");
 }

@@ -173,6 +173,12 @@ void add_visibility(Bundle& bundle, const SubjectOptions& options, const Shading
   if (bakes.empty()) return;
   VisibilityLighting lighting = options.visibility;
   lighting.maps = chosen_maps(shading);
+  for (const SphereMapInfo* map : lighting.maps)
+    if (lighting.map_width != 0 && !map->has_axes(lighting.map_width))
+      output.note(
+          fmt::format("{}: of an even width, {}, it has no texels along +-x and +-y, which normals of walls and "
+                      "floors read; give an odd one (--map-width {})",
+                      map->name, lighting.map_width, lighting.map_width + 1));
   add_visibility(bundle, scene, bakes, environment_radiance(environment, 6), baked, lighting);
 }
 

@@ -32,6 +32,10 @@ void add_attribute(Bundle& bundle, const char* name, const std::vector<Vector>& 
   bundle.attributes.push_back(std::move(out));
 }
 
+int width_of(const SphereMapInfo& map, const VisibilityLighting& options) {
+  return options.map_width == 0 ? map.usual_width() : options.map_width;
+}
+
 class Adder {
  public:
   Adder(Bundle& bundle, std::span<const VisibilityBake> bakes, std::span<const double> radiance,
@@ -116,13 +120,14 @@ class Adder {
       order = int(std::lround(std::sqrt(double(technique.count))));
       products = light_times_harmonics(radiance_, order);
     }
-    const double bytes = double(products.size()) / double(square(order)) / 3 * map.texels(options_.map_width) * 16;
+    const int width = width_of(map, options_);
+    const double bytes = double(products.size()) / double(square(order)) / 3 * map.texels(width) * 16;
     if (bytes > kMostTableBytes)
       throw UserError(fmt::format("map width {}: tables {} would take {:.1f} GiB, more than {:.0f}; make it smaller",
-                                  options_.map_width, name, bytes * 0x1p-30, kMostTableBytes * 0x1p-30));
-    const LightTableMap tables(map, options_.map_width, order);
-    bundle_.textures.push_back(light_table_texture(name, tables.tables(products), map, options_.map_width,
-                                                   technique.has_mean, options_.packing));
+                                  width, name, bytes * 0x1p-30, kMostTableBytes * 0x1p-30));
+    const LightTableMap tables(map, width, order);
+    bundle_.textures.push_back(
+        light_table_texture(name, tables.tables(products), map, width, technique.has_mean, options_.packing));
   }
 
   void add_uniforms(const TechniqueInfo& technique) {
@@ -175,10 +180,11 @@ void add_visibility(Bundle& bundle, const Scene& scene, std::span<const Visibili
   for (const VisibilityBake& bake : bakes)
     for (const auto& [key, value] : bake.notes)
       bundle.notes.emplace_back(fmt::format("{}_{}", storage_name(bake.storage), key), value);
-  std::string maps;
-  for (const SphereMapInfo* map : options.maps) maps += fmt::format("{}{}", maps.empty() ? "" : " ", map->name);
-  bundle.notes.emplace_back("maps", maps);
-  bundle.notes.emplace_back("map_width", std::to_string(options.map_width));
+  std::vector<std::string_view> maps;
+  std::vector<int> widths;
+  for (const SphereMapInfo* map : options.maps) maps.push_back(map->name), widths.push_back(width_of(*map, options));
+  bundle.notes.emplace_back("maps", fmt::format("{}", fmt::join(maps, " ")));
+  bundle.notes.emplace_back("map_width", fmt::format("{}", fmt::join(widths, " ")));
   bundle.notes.emplace_back("visibility_order", std::to_string(options.order));
   bundle.notes.emplace_back("pca_metric", std::string(pca_metric_name(options.metric)));
   bundle.notes.emplace_back("visibility_storage", std::string(texel_storage_name(options.storage)));

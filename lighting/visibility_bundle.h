@@ -18,7 +18,7 @@ namespace twinshade {
 
 struct VisibilityLighting {
   std::vector<const SphereMapInfo*> maps;        // of the L x H tables: those that shaders will be drawn with
-  int map_width = 32;                            // 1 to 4096
+  int map_width = 0;                             // 1 to 4096; 0: each map's usual one
   int order = 6;                                 // of the visibility that components are taken of, 2 to 6
   PcaMetric metric = PcaMetric::surface;         // what its components are chosen for
   std::vector<double> metric_light;              // of PcaMetric::irradiance, as `radiance`; empty: that itself

@@ -77,6 +77,31 @@ TEST_CASE("the direction of a texel reads that texel") {
     }
 }
 
+TEST_CASE("of the usual width normals along the axes read texels that look about them, whatever the map") {
+  const glm::dvec3 axes[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  const auto farthest = [&](const SphereMapInfo& map, int width) {
+    const SphereMapGrid grid(map, width);
+    const std::vector<glm::dvec3> directions = grid.directions();
+    const std::vector<SphereMapTaps> taps = grid.taps(axes);
+    double degrees = 0;
+    for (int i = 0; i < 6; ++i) {
+      glm::dvec3 mean(0);
+      for (int t = 0; t < 4; ++t) mean += taps[i].weight[t] * directions[taps[i].texel[t]];
+      degrees =
+          std::max(degrees, std::asin(glm::length(glm::cross(glm::normalize(mean), axes[i]))) * 180 / std::numbers::pi);
+    }
+    return degrees;
+  };
+  for (const SphereMapInfo& map : sphere_maps()) {
+    CAPTURE(map.name);
+    CHECK(map.has_axes(map.usual_width()));
+    CHECK(farthest(map, map.usual_width()) < 0.02);
+  }
+  CHECK(!find_sphere_map("octahedral").has_axes(32));
+  CHECK(farthest(find_sphere_map("octahedral"), 32) == doctest::Approx(1.90).epsilon(0.01));
+  CHECK(farthest(find_sphere_map("octahedral_equal_area"), 32) == doctest::Approx(3.65).epsilon(0.01));
+}
+
 TEST_CASE("weights are no less than zero and sum to one, texels exist, in double and in float") {
   const std::vector<glm::dvec3> directions = directions_to_try();
   for (const SphereMapInfo& map : sphere_maps())

@@ -128,6 +128,21 @@ TEST_CASE("packed textures hold the values of layered ones: four a texel, hemisp
   CHECK(different == 0);
 }
 
+TEST_CASE("maps have their usual widths unless another one is asked for, and the notes say which") {
+  const Scene scene = roofed_floor();
+  const VisibilityBake visibility = baked(scene);
+  VisibilityLighting lighting;
+  lighting.maps = {&find_sphere_map("cube"), &find_sphere_map("octahedral")};
+  const std::vector<double> light = some_light();
+  const Bundle usual = bundle_of(scene, visibility, light, {"unc3"}, lighting);
+  CHECK(texture(usual, "tables_sh3_cube").width == 32);
+  CHECK(texture(usual, "tables_sh3_octahedral").width == 33);
+  REQUIRE(usual.find_note("map_width"));
+  CHECK(*usual.find_note("map_width") == "32 33");
+  lighting.map_width = 16;
+  CHECK(texture(bundle_of(scene, visibility, light, {"unc3"}, lighting), "tables_sh3_octahedral").width == 16);
+}
+
 TEST_CASE("textures that would be too large are refused in one line, with the remedy") {
   const auto weight = [](std::size_t, std::size_t) { return 0.0f; };
   CHECK_THROWS_WITH_AS(weights_texture("visibility_sh", 2048, 9, TexturePacking::dx9, weight),

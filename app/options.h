@@ -89,9 +89,10 @@ struct CpuOptions {
 
 void add_common_options(CLI::App& command, CommonOptions& options);
 void add_subject_options(CLI::App& command, SubjectOptions& options);
-// --technique and --map; once parsed, refuses what the chosen techniques or the shader do not read.
+// --technique and --map; once parsed, refuses what the chosen techniques or the shader do not read. Help says that a
+// verb takes one of each unless its default is all.
 void add_technique_option(CLI::App& command, ShadingOptions& options, const std::string& default_techniques);
-void add_light_option(CLI::App& command, ShadingOptions& options);
+void add_light_option(CLI::App& command, ShadingOptions& options, bool one = false);
 // --technique, --map, --light and --shader.
 void add_shading_options(CLI::App& command, ShadingOptions& options, const std::string& default_techniques);
 // --reference-rays and --reference-order.

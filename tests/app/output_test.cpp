@@ -46,6 +46,16 @@ TEST_CASE("help and version succeed on stdout") {
   }
 }
 
+TEST_CASE("help of a verb that draws with one technique says so") {
+  const std::string render = run_twinshade({"render", "--help"}).out,
+                    compare = run_twinshade({"compare", "--help"}).out;
+  for (const char* several : {"techniques, or all", "sphere maps of", "volume|all", "all: from each"}) {
+    CAPTURE(several);
+    CHECK(render.find(several) == std::string::npos);
+    CHECK(compare.find(several) != std::string::npos);
+  }
+}
+
 TEST_CASE("list names what there is") {
   const Run run = run_twinshade({"list", "--json", "-"});
   REQUIRE_MESSAGE(run.code == 0, run.err);

@@ -2,7 +2,15 @@
 
 #include <fmt/format.h>
 
+#include "cpu_shaders/source/line_names.h"
+
 namespace twinshade {
+
+std::vector<LintFinding> findings_of(const ShaderSource& source) {
+  std::vector<LintFinding> findings = lint(source);
+  for (LintFinding& finding : findings) finding.file = with_real_names(source.files, finding.file);
+  return findings;
+}
 
 std::string describe_findings(const std::vector<LintFinding>& findings) {
   constexpr std::size_t kShown = 12;

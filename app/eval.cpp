@@ -18,6 +18,7 @@
 #include "base/file.h"
 #include "base/names.h"
 #include "cpu_shaders/machine.h"
+#include "cpu_shaders/source/line_names.h"
 
 namespace twinshade {
 namespace {
@@ -185,9 +186,9 @@ struct EvalVerb {
     try {
       backend.rows = evaluator.run(source, c.cases.table, target);
     } catch (const BackendError& error) {
-      backend.error = error.what();
+      backend.error = with_real_names(source.files, error.what());
     } catch (const UserError& error) {
-      backend.error = error.what();
+      backend.error = with_real_names(source.files, error.what());
       refused = true;
     }
     backend.seconds = std::chrono::duration<double>(Clock::now() - start).count();

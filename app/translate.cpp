@@ -54,7 +54,7 @@ struct TranslateVerb {
     TranslateOptions options;
     options.readable = true;
     const Translation translation = translate(source, options);
-    const std::vector<LintFinding> findings = lint(source);  // before anything is written: it may refuse, too
+    const std::vector<LintFinding> findings = findings_of(source);  // before anything is written: it may refuse, too
     if (file.empty())
       output.text(translation.cpp);
     else

@@ -12,6 +12,7 @@
 #include "cpu_shaders/rewrite/exact_names.h"
 #include "cpu_shaders/rewrite/frag_coord.h"
 #include "cpu_shaders/rewrite/make_exact.h"
+#include "cpu_shaders/source/line_names.h"
 #include "raster/row_grid.h"
 
 namespace twinshade {
@@ -51,10 +52,10 @@ class Check {
       return true;
     } catch (const UserError& error) {
       result_.verdict = Verdict::refused;
-      result_.message = as_the_author_names(exact_, error.what());
+      result_.message = authors_text(error.what());
     } catch (const BackendError& error) {  // of the machine that the others are compared with
       result_.verdict = Verdict::not_run;
-      result_.message = as_the_author_names(exact_, error.what());
+      result_.message = authors_text(error.what());
     } catch (const std::bad_alloc&) {  // the others would not have memory either
       throw;
     } catch (const std::exception& error) {  // our own mistake: the others are checked all the same
@@ -62,6 +63,11 @@ class Check {
       result_.message = result_.path + ": " + error.what();
     }
     return false;
+  }
+
+  // With the author's names, of files too.
+  std::string authors_text(std::string text) const {
+    return with_real_names(result_.files, as_the_author_names(exact_, std::move(text)));
   }
 
   void read() {
@@ -82,6 +88,7 @@ class Check {
     } else {
       result_.findings = lint(source_);
     }
+    for (LintFinding& finding : result_.findings) finding.file = with_real_names(result_.files, finding.file);
     result_.hash = source_hash(source_);
   }
 
@@ -119,9 +126,9 @@ class Check {
         bits_differ |= !check.comparison.rows.empty();
         result_.max_ulp = std::max(result_.max_ulp, check.comparison.max_ulp);
       } catch (const BackendError& error) {
-        check.not_run = as_the_author_names(exact_, error.what());
+        check.not_run = authors_text(error.what());
       } catch (const UserError& error) {  // its driver takes less than the first backend does
-        check.not_run = as_the_author_names(exact_, error.what());
+        check.not_run = authors_text(error.what());
         ++refused;
       }
       beyond.resize(i + 1);
@@ -212,12 +219,16 @@ class Check {
   // Without the inputs that were added, and by the author's names.
   void as_the_author_wrote(Counterexample& example) const {
     if (exact_.uses_zero) std::erase_if(example.values.uniforms, [](const Values& v) { return v.name == kExactZero; });
-    const auto name = [this](std::string& text) { text = as_the_author_names(exact_, std::move(text)); };
+    const auto name = [this](std::string& text) { text = authors_text(std::move(text)); };
     for (std::vector<Values>* list : {&example.values.inputs, &example.values.uniforms})
       for (Values& values : *list) name(values.name);
     name(example.difference.output);
     name(example.first_line.note);
-    if (example.first_line.difference) name(example.first_line.difference->statement.what);
+    if (example.first_line.difference) {
+      ProbedStatement& statement = example.first_line.difference->statement;
+      name(statement.what);
+      statement.file = with_real_names(result_.files, statement.file);
+    }
     if (!uses_frag_coord_) return;
     for (Values& values : example.values.inputs)
       if (values.name == kRowFragCoord) values.name = kFragCoord;

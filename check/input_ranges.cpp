@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "cpu_shaders/source/directive_scan.h"
+#include "cpu_shaders/source/line_names.h"
 #include "cpu_shaders/source/preprocess.h"
 
 namespace twinshade {
@@ -133,7 +134,7 @@ void keep_those_in_force(const ShaderSource& source, InputComments& comments) {
     marked.text += line + "\n";
     if (const auto found = comments.find(at); found != comments.end())
       marked.text += mark + std::to_string(at) + "\n#line " + std::to_string(found->second.line + 1) + " \"" +
-                     found->second.file + "\"\n";
+                     line_name(found->second.file) + "\"\n";
   }
   std::string preprocessed;
   try {
@@ -175,7 +176,7 @@ std::vector<InputRange> declared_ranges(const ShaderSource& source) {
     if (line.rfind("#line ", 0) == 0) {
       number_of_line = std::stoi(line.substr(6)) - 1;
       const std::size_t open = line.find('"'), close = line.rfind('"');
-      if (close != open) file = line.substr(open + 1, close - open - 1);
+      if (close != open) file = with_real_names(source.files, line.substr(open + 1, close - open - 1));
       continue;
     }
     const std::size_t comment = line_comment(line, in_block);

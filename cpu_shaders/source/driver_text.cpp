@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "cpu_shaders/shader_source.h"
+#include "cpu_shaders/source/line_names.h"
 
 namespace twinshade {
 namespace {
@@ -16,7 +17,7 @@ std::string numbered(const ShaderSource& source, const std::string& line) {
   if (!starts_with(line, "#line ") || open == std::string::npos || close == open) return line;
   const std::string path = line.substr(open + 1, close - open - 1);
   for (std::size_t k = 0; k < source.files.size(); ++k)
-    if (source.files[k] == path) return line.substr(0, open) + std::to_string(k);
+    if (line_name(source.files[k]) == path) return line.substr(0, open) + std::to_string(k);
   return line.substr(0, open) + "0";
 }
 

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <string_view>
 
+#include "cpu_shaders/source/line_names.h"
 #include "cpu_shaders/source/preprocess.h"
 
 namespace twinshade {
@@ -36,6 +37,7 @@ class Tokenizer {
   Tokenizer(const ShaderSource& source, const std::string& text) : text_(text) {
     list_.files = source.files;
     if (list_.files.empty()) list_.files.push_back(source.name);
+    for (std::string& file : list_.files) file = line_name(file);
   }
 
   TokenList run() {

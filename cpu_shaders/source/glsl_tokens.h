@@ -20,8 +20,10 @@ struct Token {
 
 struct TokenList {
   std::vector<Token> tokens;
-  Token end;                       // Kind::end: what is behind the last token
-  std::vector<std::string> files;  // as ShaderSource::files, or the shader's name alone; then what else #line names
+  Token end;  // Kind::end: what is behind the last token
+  // As ShaderSource::files, or the shader's name alone; then what else #line names. All as #line can have them:
+  // with_real_names() gives those back.
+  std::vector<std::string> files;
   std::vector<std::string> extensions;  // the #extension lines, taken out of the text
 };
 

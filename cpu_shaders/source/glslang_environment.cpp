@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "cpu_shaders/source/glslang_built_ins.h"
+#include "cpu_shaders/source/line_names.h"
 
 namespace twinshade {
 namespace {
@@ -20,8 +21,7 @@ std::string explained(const std::string& message) {
     return message + " (glslang's parser: nested too deep, or a chain too long; split it)";
   for (const char* output : {"gl_FragColor", "gl_FragData"})
     if (message.find("'" + std::string(output) + "' : undeclared") != std::string::npos)
-      return message.substr(0, message.find_last_not_of(' ') + 1) +
-             " (of old GLSL: declare an output: out vec4 color;)";
+      return message + " (of old GLSL: declare an output: out vec4 color;)";
   static const std::regex no_function(R"('(\w+)' : no matching overloaded function found)");
   std::smatch match;
   const bool left_out = std::regex_search(message, match, no_function) && is_left_out(match[1].str());
@@ -87,11 +87,12 @@ std::string first_glslang_error(const ShaderSource& source, const char* log) {
   static const std::regex with_position(R"(^(?:ERROR|WARNING): (.*):(\d+): (.*)$)");
   std::string line, fallback;
   while (std::getline(lines, line)) {
+    line.erase(line.find_last_not_of(' ') + 1);  // glslang leaves one where it has no more to say
     if (line.rfind("ERROR: ", 0) != 0) continue;
     std::smatch match;
     if (std::regex_match(line, match, with_position)) {
       // A number is the author's, of a #line as drivers have it.
-      std::string file = match[1];
+      std::string file = with_real_names(source.files, match[1]);
       if (file.find_first_not_of("0123456789") == std::string::npos) file = source.files.at(0);
       return file + ":" + match[2].str() + ": " + explained(match[3].str());
     }

@@ -16,6 +16,7 @@
 #include "cpu_shaders/source/builtin_shaders.h"
 #include "cpu_shaders/source/directive_scan.h"
 #include "cpu_shaders/source/find_word.h"
+#include "cpu_shaders/source/line_names.h"
 #include "cpu_shaders/source/preprocess.h"
 
 namespace twinshade {
@@ -190,11 +191,7 @@ class Resolver {
     return warns ? name + ": enable" : arguments;
   }
 
-  static std::string quoted(std::string path) {
-    std::replace(path.begin(), path.end(), '"', '\'');
-    std::replace(path.begin(), path.end(), '\n', ' ');
-    return '"' + path + '"';
-  }
+  static std::string quoted(const std::string& path) { return '"' + line_name(path) + '"'; }
 
   void line_directive(int next_line, const std::string& shown) {
     body_ += "#line " + std::to_string(next_line) + " " + quoted(shown) + "\n";

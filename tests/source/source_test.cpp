@@ -9,6 +9,9 @@
 #include "base/error.h"
 #include "cpu_shaders/shader_source.h"
 #include "cpu_shaders/source/builtin_shaders.h"
+#include "cpu_shaders/source/glsl_tokens.h"
+#include "cpu_shaders/source/line_names.h"
+#include "cpu_shaders/source/preprocess.h"
 
 using namespace twinshade;
 
@@ -226,6 +229,24 @@ TEST_CASE("driver logs are mapped back to files") {
   CHECK(map_driver_log(source, "1:12(5): error: `x' undeclared\n0:3(1): warning: y\n7:1(1): other\nlinking failed") ==
         "shaders/exact/dot.glsl:12: error: `x' undeclared\nmain.frag:3: warning: y\n7:1(1): other\nlinking failed");
   CHECK(map_driver_log(source, "1(40) : error C1008\n") == "shaders/exact/dot.glsl:40 : error C1008\n");
+}
+
+TEST_CASE("files whose names have quotes, which #line cannot hold, keep their names and numbers") {
+  Folder folder;
+  const std::string inner = folder.write("in\"1.glsl", "float inner;\n");
+  const ShaderSource source = load_shader(folder.write("q\"3.frag", "#include \"in\"1.glsl\"\nfloat outer;\n"));
+  REQUIRE(source.files.size() == 2);
+  CHECK(source.files[1] == inner);
+  CHECK(source.text.find("#line 1 \"" + line_name(inner) + "\"") != std::string::npos);
+  CHECK(reported_position(gl_text(source, "#version 450", ""), "inner") == "1:1");
+  CHECK(reported_position(gl_text(source, "#version 450", ""), "outer") == "0:2");
+  CHECK(with_real_names(source.files, line_name(inner) + ":1: no") == inner + ":1: no");
+  CHECK(with_real_names({"q'3.frag"}, "q'3.frag:1: no") == "q'3.frag:1: no");
+  const TokenList tokens = tokenize(source);
+  REQUIRE(tokens.files.size() == 2);
+  CHECK(position(source, tokens.tokens[0]) == inner + ":1: ");
+  const std::string wrong = folder.write("q\"4.frag", "#error no\n");
+  CHECK(error_of([&] { preprocess(load_shader(wrong)); }).rfind(wrong + ":1: ", 0) == 0);
 }
 
 TEST_CASE("the hash depends on text, version and dialect") {

@@ -223,6 +223,8 @@ JUnitCase check_junit(const CheckedShader& shader, bool make_exact) {
   JUnitCase result;
   result.name = shader.path;
   result.file = shader.path;
+  result.files = shader.files;
+  result.files.push_back(shader.path);
   result.seconds = shader.seconds;
   if (shader.verdict == Verdict::same_bits || shader.verdict == Verdict::same_to_ulp) return result;
   result.result = shader.verdict == Verdict::differs ? JUnitCase::Result::failed : JUnitCase::Result::error;

@@ -71,10 +71,21 @@ std::string command_text(const std::string& text, bool property) {
 // "./x" as services know it.
 std::string plain(const std::string& path) { return path.rfind("./", 0) == 0 ? path.substr(2) : path; }
 
-// Where the message says it is: FILE:LINE: ...
-std::optional<std::pair<std::string, int>> place_in(const std::string& message) {
+// Where the message says it is: FILE:LINE: ...; a file that is known may have colons and blanks in its name.
+std::optional<std::pair<std::string, int>> place_in(const JUnitCase& c) {
+  std::vector<std::string> known = c.files;
+  known.push_back(c.file);
+  const std::string* begun = nullptr;
+  for (const std::string& file : known)
+    if (!file.empty() && c.message.rfind(file + ":", 0) == 0 && (begun == nullptr || begun->size() < file.size()))
+      begun = &file;
   std::smatch match;
-  if (!std::regex_search(message, match, std::regex("^([^:\\s]+):([0-9]{1,9}):"))) return std::nullopt;
+  const std::string behind = begun == nullptr ? "" : c.message.substr(begun->size());
+  if (begun != nullptr)
+    return std::pair(*begun, std::regex_search(behind, match, std::regex("^:([0-9]{1,9}):")) ? std::stoi(match[1].str())
+                             : *begun == c.file                                              ? c.line
+                                                                                             : 0);
+  if (!std::regex_search(c.message, match, std::regex("^([^:\\s]+):([0-9]{1,9}):"))) return std::nullopt;
   return std::pair(match[1].str(), std::stoi(match[2].str()));
 }
 
@@ -84,7 +95,7 @@ std::string github_annotations(const std::vector<JUnitCase>& cases) {
   std::string lines;
   for (const JUnitCase& c : cases) {
     if (c.result == JUnitCase::Result::passed) continue;
-    const auto [file, line] = place_in(c.message).value_or(std::pair(c.file, c.line));
+    const auto [file, line] = place_in(c).value_or(std::pair(c.file, c.line));
     std::string properties;
     if (!file.empty()) properties += " file=" + command_text(plain(file), true);
     if (!file.empty() && line > 0) properties += fmt::format(",line={}", line);

@@ -15,6 +15,7 @@ struct JUnitCase {
   double seconds = 0;
   std::string file = {};  // of the shader, where known; a message that begins with FILE:LINE: tells better
   int line = 0;           // from 1 on; 0: not known
+  std::vector<std::string> files = {};  // that a message may begin with, beside `file`: their names may hold anything
 };
 
 std::string junit_xml(const std::string& suite, const std::vector<JUnitCase>& cases);

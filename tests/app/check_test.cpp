@@ -254,6 +254,27 @@ TEST_CASE("a loop that llvmpipe leaves early is named as what may be the cause")
   CHECK_MESSAGE(note.find("leaves every loop after 65535 iterations") != std::string::npos, note);
 }
 
+TEST_CASE("a shader whose name has a quote is called by its name, in JSON and in annotations") {
+  if (const std::string reason = why_missing("egl"); !reason.empty()) {
+    MESSAGE("not tested: " << reason);
+    return;
+  }
+  const Folder folder;
+  const std::string shader = folder.file("q\"3.frag", planted("a.x * b.x + a.x * b.y"));
+  const nlohmann::json result = run_twinshade(arguments(shader)).json()["shaders"][0];
+  REQUIRE(result["verdict"] == "differs");
+  REQUIRE_FALSE(result["outside_exact_dialect"].empty());
+  CHECK(result["outside_exact_dialect"][0]["file"] == shader);
+  REQUIRE(result["counterexample"]["first_line"].contains("file"));
+  CHECK(result["counterexample"]["first_line"]["file"] == shader);
+  CHECK_FALSE(result["counterexample"]["first_line"]["findings"].empty());
+  const std::string bad = folder.file("b\"a:7:d.frag", "out vec4 color;\nvoid main() {\n  color = nothing;\n}\n");
+  const Run run = run_twinshade({"check", bad, shader, "--on", "cpu,egl", "--no-timing", "--annotate", "github"});
+  CHECK_MESSAGE(run.out.find("b\"a%3A7%3Ad.frag,line=3,title=") != std::string::npos, run.out);
+  CHECK_MESSAGE(run.out.find("q\"3.frag,line=7,title=") != std::string::npos, run.out);
+  CHECK_MESSAGE(run.out.find("undeclared identifier\n") != std::string::npos, run.out);
+}
+
 TEST_CASE("wrong shaders, ranges and files are refused with their place, the others are checked all the same") {
   const Folder folder;
   const std::string bad = folder.file("bad.frag", "out vec4 color;\nvoid main() {\n  color = nothing;\n}\n");

@@ -18,6 +18,20 @@ TEST_CASE("an annotation stands at the line that the message begins with, else a
         "::error file=c.frag,line=7,title=c::differs\n");
 }
 
+TEST_CASE("an annotation's file may have colons, blanks and commas in its name, and so may an included one") {
+  const auto place = [](const JUnitCase& c) {
+    const std::string line = github_annotations({c});
+    return line.substr(8, line.find(",title=") - 8);
+  };
+  const JUnitCase colons{"n", Result::error, "a:7:b.frag:2: 'x' : undeclared identifier", "", 0, "a:7:b.frag", 0};
+  CHECK(place(colons) == "file=a%3A7%3Ab.frag,line=2");
+  CHECK(place({"n", Result::error, "err]]>%0A::x,y.frag:3: no", "", 0, "err]]>%0A::x,y.frag", 0}) ==
+        "file=err]]>%250A%3A%3Ax%2Cy.frag,line=3");
+  CHECK(place({"n", Result::error, "a:7:b.frag: cannot be read", "", 0, "a:7:b.frag", 0}) == "file=a%3A7%3Ab.frag");
+  CHECK(place({"n", Result::error, "my lib:1:x.glsl:4: no", "", 0, "a.frag", 0, {"a.frag", "my lib:1:x.glsl"}}) ==
+        "file=my lib%3A1%3Ax.glsl,line=4");
+}
+
 TEST_CASE("services know ./a.frag as a.frag") {
   const std::vector<JUnitCase> cases{{"./a.frag", Result::failed, "differs", "", 0, "./a.frag", 7}};
   CHECK(github_annotations(cases) == "::error file=a.frag,line=7,title=a.frag::differs\n");

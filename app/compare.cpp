@@ -80,8 +80,12 @@ class CompareRun {
 
   int run() {
     skipped_ = subject_.skipped;
-    for (const Shading& shader : load_shadings(verb_.shading, subject_))
-      for (const FrameOutput& output : outputs_of(shader)) compare(shader, output);
+    const std::vector<Shading> shadings = load_shadings(verb_.shading, subject_);
+    for (const Shading& shader : shadings) {
+      const std::vector<FrameOutput> outputs = outputs_of(shader);
+      if (&shader == &shadings.front()) begin_table(shadings, outputs);  // a shader with several is the only one
+      for (const FrameOutput& output : outputs) compare(shader, output);
+    }
     if (rows_.empty()) {
       std::string reasons;
       for (const auto& [technique, reason] : skipped_)
@@ -89,6 +93,10 @@ class CompareRun {
       throw UserError(verb_.subject.scene + ": no technique can be drawn: " + reasons);
     }
     report();
+    if (unwritten_ > 0)
+      throw UserError(
+          write_error_ +
+          (unwritten_ > 1 ? fmt::format(" (and {} more picture{})", unwritten_ - 1, unwritten_ > 2 ? "s" : "") : ""));
     return exit_code();
   }
 
@@ -138,10 +146,10 @@ class CompareRun {
       for (std::size_t i = 1; i < verb_.backends.size(); ++i) fail(shader, a, verb_.backends[i], error.what());
       return;
     }
-    write_pictures(shader, a, reference);
+    if (!verb_.folder.empty() && pictured()) write_picture_of(shader, a, reference);
     for (std::size_t i = 1; i < verb_.backends.size(); ++i) {
       const std::string& b = verb_.backends[i];
-      remove_difference_picture(shader, reference_of(b, a), b);
+      written([&] { remove_difference_picture(shader, reference_of(b, a), b); });
       try {
         if (b == "softpipe")
           compare_on_softpipe(shader, a, reference);
@@ -169,14 +177,18 @@ class CompareRun {
     Row row = row_of(shader, a, b);
     row.comparison = compare_frames(frame_a, frame_b, scope);
     row.hash_a = frame_hash(frame_a), row.hash_b = frame_hash(frame_b);
-    write_pictures(shader, b, frame_b);
-    if (!row.comparison.equal()) {
-      if (!verb_.folder.empty() && pictured())
-        write_difference_picture(output_.claimed(difference_name(picture_of(shader), a, b)), frame_a,
-                                 scope == CompareScope::all ? frame_b : with_colors_where_covered(frame_a, frame_b));
-      explain(shader, row, frame_a, frame_b, scope);
+    if (!verb_.folder.empty() && pictured()) {
+      const bool whole = scope == CompareScope::all;
+      const Frame merged = whole ? Frame() : with_colors_where_covered(frame_a, frame_b);
+      const Frame& shown = whole ? frame_b : merged;
+      write_picture_of(shader, b, shown);
+      if (!row.comparison.equal())
+        written([&] {
+          write_difference_picture(output_.claimed(difference_name(picture_of(shader), a, b)), frame_a, shown);
+        });
     }
-    rows_.push_back(std::move(row));
+    if (!row.comparison.equal()) explain(shader, row, frame_a, frame_b, scope);
+    add(std::move(row));
   }
 
   // What only shades, as a frame: all else is as in the frame that it was given.
@@ -215,7 +227,7 @@ class CompareRun {
       if (!again.first) again = row.comparison;
     }
     row.comparison.attributes_differ = again.attributes_differ;
-    row.findings = lint(shader.source);
+    row.findings = findings_of(shader.source);
     row.first_difference = difference_json(again.first, *a);
     row.description = describe_mismatch(row.name(), row.a, row.b, again, *a) + describe_findings(row.findings);
   }
@@ -239,6 +251,33 @@ class CompareRun {
   void fail(const Shading& shader, const std::string& a, const std::string& b, const std::string& reason) {
     Row row = row_of(shader, a, b);
     row.failure = reason;
+    add(std::move(row));
+  }
+
+  // Rows are written as they are known, so columns are as wide as what they may come to hold.
+  void begin_table(const std::vector<Shading>& shadings, const std::vector<FrameOutput>& outputs) {
+    std::size_t name = 0, light = 0, map = 0, backend = 0;
+    for (const Shading& shader : shadings) {
+      light = std::max(light, shader.light.size()), map = std::max(map, shader.map.size());
+      for (const FrameOutput& output : outputs) {
+        output_at_ = output;
+        name = std::max(name, row_of(shader, "", "").name().size());
+      }
+    }
+    for (const std::string& each : verb_.backends) backend = std::max(backend, each.size());
+    const std::size_t count = std::to_string(std::uint64_t{subject_.bundle.width} * subject_.bundle.height).size();
+    table_.column("technique", Table::Align::left, name);
+    table_.column("light", Table::Align::left, light);
+    table_.column("map", Table::Align::left, map);
+    for (const char* heading : {"a", "b"}) table_.column(heading, Table::Align::left, backend);
+    for (const char* heading : {"shaded", "coverage", "id", "depth", "attributes", "pixels", "denormal"})
+      table_.column(heading, Table::Align::right, count);
+    table_.column("max ULP", Table::Align::right, std::to_string(UINT32_MAX).size());
+    table_.column("verdict");
+  }
+
+  void add(Row row) {
+    output_.text((rows_.empty() ? table_.headings() : "") + table_.line(cells(row)));
     rows_.push_back(std::move(row));
   }
 
@@ -249,10 +288,21 @@ class CompareRun {
     return by_name ? shader.source.name : shader.technique;
   }
 
-  void write_pictures(const Shading& shader, const std::string& backend, const Frame& frame) {
-    if (verb_.folder.empty() || backend == "softpipe" || !pictured()) return;
-    make_folder(verb_.folder);
-    write_picture(output_.claimed(frame_name(picture_of(shader), backend)), frame, verb_.picture);
+  void write_picture_of(const Shading& shader, const std::string& backend, const Frame& frame) {
+    written([&] {
+      make_folder(verb_.folder);
+      write_picture(output_.claimed(frame_name(picture_of(shader), backend)), frame, verb_.picture);
+    });
+  }
+
+  // The frames are drawn and are compared all the same: that a picture cannot be written is told last.
+  template <class Write>
+  void written(const Write& write) {
+    try {
+      write();
+    } catch (const UserError& error) {
+      if (unwritten_++ == 0) write_error_ = error.what();
+    }
   }
 
   // softpipe keeps denormals where the dialect flushes them: known, counted, no mismatch.
@@ -282,21 +332,9 @@ class CompareRun {
   }
 
   void report() const {
-    Table table;
-    table.column("technique");
-    table.column("light");
-    table.column("map");
-    table.column("a");
-    table.column("b");
-    for (const char* heading : {"shaded", "coverage", "id", "depth", "attributes", "pixels", "denormal", "max ULP"})
-      table.column(heading, Table::Align::right);
-    table.column("verdict");
     Json results = Json::array();
-    for (const Row& row : rows_) {
-      table.row(cells(row));
-      results.push_back(json(row));
-    }
-    std::string text = table.text();
+    for (const Row& row : rows_) results.push_back(json(row));
+    std::string text;
     for (const auto& [technique, reason] : skipped_) text += fmt::format("skipped {}: {}\n", technique, reason);
     for (const Row& row : rows_)
       if (!row.failure.empty()) text += fmt::format("failed {} on {}: {}\n", row.name(), row.b, row.failure);
@@ -362,7 +400,10 @@ class CompareRun {
   FrameOutput output_at_;  // that is drawn
   bool several_outputs_ = false;
   std::uint32_t first_location_ = 0;
+  Table table_;  // its columns: rows are not kept
   std::vector<Row> rows_;
+  std::size_t unwritten_ = 0;  // pictures
+  std::string write_error_;    // of the first
   std::vector<std::pair<std::string, std::string>> skipped_;
 };
 

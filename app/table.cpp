@@ -6,7 +6,8 @@
 
 namespace twinshade {
 
-void Table::column(std::string heading, Align align) {
+void Table::column(std::string heading, Align align, std::size_t width) {
+  widths_.push_back(std::max(width, heading.size()));
   headings_.push_back(std::move(heading));
   aligns_.push_back(align);
 }
@@ -17,25 +18,24 @@ void Table::row(std::vector<std::string> cells) {
   rows_.push_back(std::move(cells));
 }
 
+std::string Table::line(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths) const {
+  TWINSHADE_CHECK_LE(cells.size(), widths.size());
+  std::string line;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const std::string padding(std::max(widths[c], cells[c].size()) - cells[c].size(), ' ');
+    if (c > 0) line += "  ";
+    line += aligns_[c] == Align::left ? cells[c] + padding : padding + cells[c];
+  }
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line + '\n';
+}
+
 std::string Table::text() const {
-  std::vector<std::size_t> widths;
-  for (const std::string& heading : headings_) widths.push_back(heading.size());
+  std::vector<std::size_t> widths = widths_;
   for (const auto& cells : rows_)
     for (std::size_t c = 0; c < cells.size(); ++c) widths[c] = std::max(widths[c], cells[c].size());
-
-  std::string text;
-  const auto add = [&](const std::vector<std::string>& cells) {
-    std::string line;
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-      const std::string padding(widths[c] - cells[c].size(), ' ');
-      if (c > 0) line += "  ";
-      line += aligns_[c] == Align::left ? cells[c] + padding : padding + cells[c];
-    }
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + '\n';
-  };
-  add(headings_);
-  for (const auto& cells : rows_) add(cells);
+  std::string text = line(headings_, widths);
+  for (const auto& cells : rows_) text += line(cells, widths);
   return text;
 }
 

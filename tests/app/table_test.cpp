@@ -17,4 +17,14 @@ TEST_CASE("columns are aligned, numbers to the right, and lines end without blan
         "longer  12345678\n");
 }
 
+TEST_CASE("rows of a table that are written as they come have columns as wide as was said") {
+  Table table;
+  table.column("name", Table::Align::left, 6);
+  table.column("n", Table::Align::right, 3);
+  table.column("note");
+  CHECK(table.headings() == "name      n  note\n");
+  CHECK(table.line({"a", "1", "first"}) == "a         1  first\n");
+  CHECK(table.line({"longest", "1234", "moved"}) == "longest  1234  moved\n");
+}
+
 }  // namespace twinshade

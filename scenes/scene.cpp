@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/hash.h"
 #include "base/names.h"
 #include "scenes/builtin_scenes.h"
@@ -44,6 +45,10 @@ Scene load_scene(const std::string& name_or_path, std::uint32_t triangles, bool 
     if (triangles != 0)
       throw UserError(name_or_path + ": --triangles is for built-in scenes; a model is drawn as it is");
     return load_model_file(name_or_path, needs_camera);
+  }
+  if (std::filesystem::path(name_or_path).extension() == ".bundle") {
+    read_file(name_or_path);  // says why it cannot be read; bundles that can be are told by their content
+    throw UserError(name_or_path + ": is not a bundle; make one with `twinshade bake`");
   }
   if (name_or_path.find_first_of("/.") != std::string::npos)
     throw UserError(name_or_path + ": not a model: the name must end in .gltf, .glb or .obj");

@@ -232,8 +232,10 @@ TEST_CASE("missing and truncated models are refused by name") {
   check_refused({"render", folder.file("model.xyz", "solid")}, {"model.xyz"});
 }
 
-TEST_CASE("damaged bundles are refused by name") {
+TEST_CASE("damaged bundles are refused by name, and those that are not there or none with the reason") {
   const Folder folder;
+  check_refused({"render", folder / "none.bundle"}, {"none.bundle: cannot be read: No such file or directory"});
+  check_refused({"render", folder.file("no.bundle", "text")}, {"no.bundle: is not a bundle; make one with"});
   const std::string good = folder / "good.bundle";
   const Run bake = run_twinshade(small_quad({"bake"}, {"--technique", "lightmap", "-o", good}));
   REQUIRE_MESSAGE(bake.code == 0, bake.err);

@@ -153,8 +153,8 @@ std::string eval_text(const std::vector<EvaluatedCase>& cases, bool many) {
   }
   std::string text = table.empty() ? "" : table.text() + details;
   if (many)
-    text += fmt::format("{}{} shaders: {} passed, {} failed, {} with errors\n", table.empty() ? "" : "\n", cases.size(),
-                        passed, cases.size() - passed - errors, errors);
+    text += fmt::format("{}{} shader{}: {} passed, {} failed, {} with errors\n", table.empty() ? "" : "\n",
+                        cases.size(), cases.size() == 1 ? "" : "s", passed, cases.size() - passed - errors, errors);
   return text;
 }
 

@@ -191,6 +191,13 @@ TEST_CASE("eval runs a folder: a shader that is wrong spoils no other") {
   CHECK(run.err.find("4 shaders: 1 passed, 1 failed, 2 with errors") != std::string::npos);
 }
 
+TEST_CASE("one shader of a folder is no shaders") {
+  const Folder folder;
+  folder.file("a.frag", kShader);
+  folder.file("a.json", cases("[[1, 2], null]"));
+  CHECK(run_twinshade({"eval", folder / ".", "--on", "cpu"}).out == "1 shader: 1 passed, 0 failed, 0 with errors\n");
+}
+
 TEST_CASE("a file of a folder without its partner is an error of its own, and the others run all the same") {
   const Folder folder;
   const std::string junit = folder / "out.xml";

@@ -68,15 +68,57 @@ void draw_horizontal_axis(Drawing& drawing, const Scale& scale, const std::strin
   drawing.text({middle, bottom + 40}, title, {.size = 13, .anchor = Anchor::middle, .color = kInk});
 }
 
+// A regular polygon's outline; `corner`: in turns clockwise from the right, where its first corner is.
+void outline(Drawing& drawing, Point center, double radius, int corners, double corner, Color color) {
+  std::vector<Point> points;
+  for (int k = 0; k <= corners; ++k) {
+    const double angle = 2 * portable::kPi * (corner + double(k % corners) / corners);
+    points.push_back({center.x + radius * portable::cos(angle), center.y + radius * portable::sin(angle)});
+  }
+  drawing.path(std::move(points), {color, 1.6, {}});
+}
+
+// A shape of each series' own: a small disc, and outlines through which it and each other can be seen.
+void draw_dot(Drawing& drawing, Point at, std::size_t series) {
+  struct Outline {
+    double radius;
+    int corners;
+    double corner;
+  };
+  constexpr Outline kOutlines[] = {{6, 24, 0}, {8.5, 4, 0.125}, {8.5, 3, 0.25}, {8.5, 3, 0.75},
+                                   {9, 4, 0},  {4, 4, 0.125},   {9.5, 6, 0}};
+  const Color color = series_color(series);
+  if (const std::size_t shape = series % (std::size(kOutlines) + 1); shape == 0)
+    drawing.disc(at, 3.6, color);
+  else
+    outline(drawing, at, kOutlines[shape - 1].radius, kOutlines[shape - 1].corners, kOutlines[shape - 1].corner, color);
+}
+
+// Points with its tip to where the value is, out of the chart.
+void draw_left_arrow(Drawing& drawing, Point tip, Color color) {
+  drawing.polygon({tip, {tip.x + 8, tip.y - 4.5}, {tip.x + 8, tip.y + 4.5}}, color);
+}
+void draw_down_arrow(Drawing& drawing, Point tip, Color color) {
+  drawing.polygon({tip, {tip.x - 4.5, tip.y - 8}, {tip.x + 4.5, tip.y - 8}}, color);
+}
+
+std::string below_note(const Scale& scale) {
+  return fmt::format("arrow: below the axis, from 0 to {}", short_number(scale.low()));
+}
+
 void draw_series(Drawing& drawing, const Series& series, const Scale& x, const Scale& y, const Stroke& stroke) {
   std::vector<Point> piece;
   for (std::size_t i = 0; i < series.x.size(); ++i) {
-    if (!x.shows(series.x[i]) || !y.shows(series.y[i])) {
+    const bool below = y.below(series.y[i]);
+    if (!x.shows(series.x[i]) || !(below || y.shows(series.y[i]))) {
       drawing.path(std::exchange(piece, {}), stroke);
       continue;
     }
-    piece.push_back({x.pixel(series.x[i]), y.pixel(series.y[i])});
-    if (series.markers) drawing.disc(piece.back(), 3.2, stroke.color);
+    piece.push_back({x.pixel(series.x[i]), y.pixel(below ? y.low() : series.y[i])});
+    if (below)
+      draw_down_arrow(drawing, {piece.back().x, piece.back().y + 8}, stroke.color);
+    else if (series.markers)
+      drawing.disc(piece.back(), 3.2, stroke.color);
   }
   drawing.path(std::move(piece), stroke);
 }
@@ -111,7 +153,10 @@ Drawing draw(const LineChart& chart) {
     TWINSHADE_CHECK_EQ(series.x.size(), series.y.size());
     labels.push_back(series.label);
   }
-  const double left = 76, right = chart.width - 32 - widest(labels, kLabelSize), top = 68, bottom = chart.height - 56;
+  // A sample of a line beside its label, where colours alone do not tell
+  const double sample = chart.series.size() > kSeriesColorCount ? 34 : 0;
+  const double left = 76, right = chart.width - 32 - sample - widest(labels, kLabelSize);
+  const double top = 68, bottom = chart.height - 56;
   const Scale x(chart.x, all_values(chart.series, &Series::x), left, right);
   const Scale y(chart.y, all_values(chart.series, &Series::y), bottom, top);
 
@@ -144,7 +189,15 @@ Drawing draw(const LineChart& chart) {
   for (std::size_t k = 0; k < labelled.size(); ++k) {
     const Color color = series_color(labelled[k]);
     drawing.line({ends[k] + 2, wanted[k]}, {right + 14, place[k]}, {color, 1, {}});
-    drawing.text({right + 17, place[k] + 4}, chart.series[labelled[k]].label, {.size = kLabelSize, .color = color});
+    if (sample > 0)
+      drawing.line({right + 17, place[k]}, {right + 13 + sample, place[k]}, {color, 2, series_dashes(labelled[k])});
+    drawing.text({right + 17 + sample, place[k] + 4}, chart.series[labelled[k]].label,
+                 {.size = kLabelSize, .color = color});
+  }
+  const std::vector<double> values = all_values(chart.series, &Series::y);
+  if (std::any_of(values.begin(), values.end(), [&](double value) { return y.below(value); })) {
+    draw_down_arrow(drawing, {left + 4.5, bottom + 53}, kFaint);
+    drawing.text({left + 14, bottom + 53}, below_note(y), {.size = 11, .color = kFaint});
   }
   return drawing;
 }
@@ -164,11 +217,19 @@ Drawing draw(const BarChart& chart) {
   if (!dots) values.push_back(0);  // bars begin there
   const Scale scale(chart.value, values, left, right);
 
-  Drawing drawing(chart.width, bottom + 56);
+  const bool any_below = dots && std::any_of(values.begin(), values.end(), [&](double v) { return scale.below(v); });
+  Drawing drawing(chart.width, bottom + (any_below ? 76 : 56));
   draw_titles(drawing, chart.title, chart.subtitle);
+  if (any_below) {
+    draw_left_arrow(drawing, {left, bottom + 58}, kFaint);
+    drawing.text({left + 14, bottom + 62}, below_note(scale), {.size = 11, .color = kFaint});
+  }
   double legend_x = left;
   for (std::size_t b = 0; legend && b < chart.bars.size(); ++b) {
-    drawing.disc({legend_x + 6, 74}, 5, series_color(b));
+    if (dots)
+      draw_dot(drawing, {legend_x + 6, 74}, b);
+    else
+      drawing.disc({legend_x + 6, 74}, 5, series_color(b));
     drawing.text({legend_x + 17, 78}, chart.bars[b].label, {.size = kLabelSize, .color = kInk});
     legend_x += 40 + text_width(chart.bars[b].label, kLabelSize);
   }
@@ -178,10 +239,14 @@ Drawing draw(const BarChart& chart) {
     const double middle = top + row_height * (double(r) + 0.5);
     drawing.text({left - 10, middle + 4}, chart.rows[r], {.size = kLabelSize, .anchor = Anchor::end, .color = kInk});
     if (dots) drawing.line({left, middle}, {right, middle}, {kFineGrid, 1, {}});
+    int arrows = 0;
     for (std::size_t b = 0; b < chart.bars.size(); ++b) {
       const double value = chart.bars[b].values[r];
       if (dots) {
-        if (scale.shows(value)) drawing.disc({scale.pixel(value), middle}, 5, series_color(b));
+        if (scale.shows(value))
+          draw_dot(drawing, {scale.pixel(value), middle}, b);
+        else if (scale.below(value))
+          draw_left_arrow(drawing, {left - 4 + 10 * arrows++, middle}, series_color(b));
         continue;
       }
       const double thickness = (row_height - 8) / double(chart.bars.size());

@@ -19,13 +19,14 @@ struct Axis {
   bool logarithmic = false;
   // Without them the axis spans the data. A logarithmic axis must span positive values.
   std::optional<double> low{}, high{};
-  bool whole = false;  // of what is counted: ticks are whole numbers
+  std::optional<int> most_decades{};  // of a logarithmic axis: what is smaller is shown as below it
+  bool whole = false;                 // of what is counted: ticks are whole numbers
 };
 
 struct Series {
   std::string label;
   std::vector<double> x,
-      y;                 // as many; where y is not finite, or not positive on a logarithmic axis, the line has a gap
+      y;                 // as many; where y is not finite, or negative on a logarithmic axis, the line has a gap
   bool markers = false;  // a disc at each point
 };
 
@@ -36,7 +37,8 @@ struct LineChart {
   double width = 900, height = 560;
 };
 
-// Rows of horizontal bars, or of dots: always on a logarithmic axis, where a bar has no honest beginning.
+// Rows of horizontal bars, or of dots: always on a logarithmic axis, where a bar has no honest beginning. Each series
+// has dots of its own shape, so that those at one place are all seen.
 struct BarChart {
   std::string title, subtitle;
   Axis value;
@@ -58,6 +60,7 @@ struct HeatMap {
   bool logarithmic = false;    // of the colours
 };
 
+// What is below a logarithmic axis, zero included, is an arrow at its lower end, and a line below the chart says so.
 Drawing draw(const LineChart& chart);
 Drawing draw(const BarChart& chart);
 Drawing draw(const HeatMap& chart);

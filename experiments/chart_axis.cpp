@@ -50,6 +50,7 @@ Scale::Scale(const Axis& axis, const std::vector<double>& values, double begin, 
     low_ = power_of_ten(int(std::floor(low_exponent + 1e-9)));
     high_ = power_of_ten(int(std::ceil(high_exponent - 1e-9)));
     if (low_ == high_) high_ = low_ * 10;
+    if (axis.most_decades) low_ = std::max(low_, high_ / power_of_ten(*axis.most_decades));
   } else {
     if (low_ > 0 && low_ < 0.5 * high_) low_ = 0;
     if (low_ == high_) high_ = low_ + 1;

@@ -14,6 +14,8 @@ class Scale {
   Scale(const Axis& axis, const std::vector<double>& values, double begin, double end);
 
   bool shows(double value) const;
+  // A value that the axis is too short for, as every logarithmic one is for zero.
+  bool below(double value) const { return logarithmic_ && value >= 0 && value < low_; }
   double pixel(double value) const;
   double low() const { return low_; }
 

@@ -25,7 +25,8 @@ struct ProbeLight {
   std::uint32_t width = 0, height = 0;
 };
 
-// The probes asked for, or the built-in environments; UserError as load_environment.
+// The probes asked for, or the built-in environments, small pictures refined: each pixel as several of its radiance, so
+// that one light is the same however small it was stored. UserError as load_environment.
 struct Probe {
   std::string name;  // of its file, without folder and ending; with a number behind it where another has that name
   Environment environment;

@@ -25,7 +25,9 @@ Drawing comparison(const ProbeLight& light, const std::vector<const TechniqueInf
   const double scale = display_scale(light);
   std::vector<double> sorted = errors;
   std::sort(sorted.begin(), sorted.end());
-  const double largest = sorted.empty() ? 0 : 3 * sorted[sorted.size() / 2];
+  // Not below what sums over pixels are good for: of light that all bases hold, that alone would be left to see
+  const double finest = 1e-4 / scale;
+  const double largest = sorted.empty() ? 0 : std::max(3 * sorted[sorted.size() / 2], finest);
   const int rows = int(bases.size() + 1 + kTilesAcross - 1) / kTilesAcross;
   const double cell_width = kTileWidth + kGap, cell_height = 2 * kTileHeight + 4 + kCaption;
   Drawing drawing(kGap + kTilesAcross * cell_width, kTop + rows * cell_height);
@@ -54,25 +56,20 @@ Drawing error_chart(const std::vector<const TechniqueInfo*>& bases, const std::v
   BarChart chart;
   chart.title = "Error of irradiance probes";
   chart.subtitle =
-      "Root mean square over the sphere of E / pi, mean of the three channels; noise-free reference. In "
+      "Root mean square over the sphere of E / pi, mean of the three channels; reference: the sum over all pixels. In "
       "brackets: coefficients.";
   chart.value.title = "RMSE of E / pi, in the probe's unit of radiance";
   chart.value.logarithmic = true;
+  chart.value.most_decades = 5;  // what is exact but for rounding would squeeze everything else into a corner
   std::vector<std::size_t> order(bases.size());
   for (std::size_t b = 0; b < order.size(); ++b) order[b] = b;
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return errors[0][a] > errors[0][b]; });
   for (const std::size_t b : order) chart.rows.push_back(fmt::format("{} ({})", bases[b]->name, bases[b]->count));
-  double largest = 0;
   for (std::size_t l = 0; l < lights.size(); ++l) {
     chart.bars.push_back({lights[l].name, {}});
     for (const std::size_t b : order) chart.bars.back().values.push_back(errors[l][b]);
-    for (const double error : errors[l]) largest = std::max(largest, error);
   }
-  // What is exact but for rounding would squeeze everything else into a corner
-  for (BarChart::Bars& bars : chart.bars)
-    for (double& value : bars.values)
-      if (value < largest * 1e-5) value = 0;
   return draw(chart);
 }
 

@@ -293,7 +293,7 @@ void note_enough_components(ExperimentResult& result) {
             fmt::format(fmt::runtime(what), order, technique, percent_of_mean(result.rows.number(r, "relative"))));
   };
   for (const auto& [order, technique] : {std::pair(4, "pca12"), {6, "pca16"}, {6, "pca24"}}) {
-    note("components", order, technique, "order {}: {} is {} off all coefficients (NMV: enough)");
+    note("components", order, technique, "order {}: {} is {} off all coefficients (as many as NMV calls enough)");
     note("components-visibility", order, technique, "order {}: {} chosen as the paper does is {} off all coefficients");
     note("components-light", order, technique, "order {}: {} chosen for the light is {} off all coefficients");
   }

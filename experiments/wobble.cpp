@@ -128,7 +128,9 @@ class Basis {
     return values;
   }
 
-  // The peak near a point of the grid, by steps that halve where no neighbour is higher.
+  // The peak near a point of the grid, by steps to the highest of eight neighbours, if it is higher. Each is half as
+  // long as the one before; together they reach twice the rings' distance, and near the light no peak is farther from
+  // the grid.
   glm::dvec3 climb(const std::vector<double>& coefficients, glm::dvec3 n, double value, double& peak) const {
     for (double step = kRingDegrees * kPi / 180; step > 1e-4; step /= 2) {
       const auto [u, v] = tangents(n);

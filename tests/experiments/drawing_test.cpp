@@ -57,6 +57,54 @@ TEST_CASE("a line chart leaves gaps where a value is not defined") {
   CHECK(count(svg, "<circle") == 5);
 }
 
+TEST_CASE("what is below a logarithmic axis is an arrow at its end, and the chart says so") {
+  BarChart dots;
+  dots.value.logarithmic = true;
+  dots.rows = {"row", "other"};
+  dots.bars.push_back({"shown", {1, 0.5}});
+  dots.bars.push_back({"too small", {0.25, 1e-30}});
+  CHECK(draw(dots).svg().find("below the axis") == std::string::npos);
+  dots.value.low = 1e-3;
+  const std::string low = draw(dots).svg();
+  CHECK(low.find("below the axis, from 0 to 0.001") != std::string::npos);
+  CHECK(count(low, "<polygon") == 2);  // and one beside the words
+  dots.value.low.reset();
+  dots.value.most_decades = 5;
+  CHECK(draw(dots).svg().find("below the axis, from 0 to 1e-05") != std::string::npos);
+  dots.bars[1].values[1] = 0;
+  dots.value.most_decades.reset();
+  CHECK(count(draw(dots).svg(), "<polygon") == 2);
+
+  LineChart line;
+  line.y.logarithmic = true;
+  line.series.push_back({"a", {0, 1, 2}, {1, 0.5, 0}});
+  const std::string svg = draw(line).svg();
+  CHECK(svg.find("below the axis, from 0 to 0.1") != std::string::npos);
+  CHECK(count(svg, "<polygon") == 2);
+  line.y.logarithmic = false;
+  CHECK(count(draw(line).svg(), "<polygon") == 0);
+}
+
+TEST_CASE("dots of different series at one place are all seen: each series has a shape of its own") {
+  BarChart chart;
+  chart.dots = true;
+  chart.rows = {"row"};
+  for (const char* name : {"a", "b", "c", "d"}) chart.bars.push_back({name, {1}});
+  const std::string svg = draw(chart).svg();
+  CHECK(count(svg, "<circle") == 2);               // one series: of the legend, and of the row
+  CHECK(count(svg, "stroke-width=\"1.6\"") == 6);  // three of outlines, which hide nothing
+}
+
+TEST_CASE("where lines are told apart by dashes their labels show them") {
+  LineChart chart;
+  for (int k = 0; k < 8; ++k) chart.series.push_back({"line", {0, 1}, {0, double(k)}});
+  CHECK(count(draw(chart).svg(), "stroke-width=\"2\"") == 8);
+  chart.series.push_back({"dashed", {0, 1}, {0, 8}});
+  const std::string svg = draw(chart).svg();
+  CHECK(count(svg, "stroke-width=\"2\"") == 18);
+  CHECK(count(svg, "stroke-dasharray") == 2);
+}
+
 TEST_CASE("an axis of what is counted has whole ticks") {
   LineChart chart;
   chart.series.push_back({"a", {1, 2}, {3, 4}, true});

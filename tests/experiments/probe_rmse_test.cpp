@@ -7,9 +7,12 @@
 #include <limits>
 #include <map>
 
+#include <unistd.h>
+
 #include "base/error.h"
 #include "base/parallel.h"
 #include "experiments/probe_light.h"
+#include "images/image_file.h"
 #include "lighting/environment_light.h"
 #include "lighting/projection.h"
 
@@ -83,6 +86,31 @@ TEST_CASE("rows and pictures of an experiment with a probe") {
   REQUIRE(result.rows.size() == 1);
   CHECK(std::get<std::string>(result.rows.at(0, "probe")) == "constant");
   CHECK(result.pictures.size() == 3);
+}
+
+TEST_CASE("one light is the same to an experiment however small its picture is") {
+  // The upper half sky, stored in one size and another; finer than this no picture is refined
+  const auto write = [](const std::string& name, std::uint32_t width, std::uint32_t height) {
+    const std::filesystem::path path = std::filesystem::temp_directory_path() / name;
+    std::vector<float> rgb(std::size_t(width) * height * 3, 0.25f);
+    std::fill(rgb.begin(), rgb.begin() + std::ptrdiff_t(rgb.size() / 2), 1.0f);
+    write_image_file(path.string(), {width, height, 3, true, rgb.data(), std::ptrdiff_t(width) * 12, {}});
+    return path.string();
+  };
+  ExperimentOptions options;
+  const std::string process = std::to_string(::getpid());
+  options.probes = {write("twinshade_small_" + process + ".exr", 8, 4),
+                    write("twinshade_odd_" + process + ".exr", 20, 66), "constant"};
+  std::vector<double> errors;
+  for (const Probe& probe : load_probes(options)) {
+    const ProbeLight light = measured_light(probe, 4);
+    const TechniqueInfo& sh3 = find_technique("sh3");
+    errors.push_back(probe_error(light, reconstruct(sh3, fitted_coefficients(sh3, light), light.normals)).rmse);
+  }
+  std::filesystem::remove(options.probes[0]);
+  std::filesystem::remove(options.probes[1]);
+  CHECK(std::abs(errors[0] - errors[1]) < 3e-6);
+  CHECK(errors[2] < 2e-6);
 }
 
 TEST_CASE("a probe of one pixel is one light, as far off as one light is") {

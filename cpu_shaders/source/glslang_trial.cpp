@@ -11,7 +11,6 @@
 #include <cstring>
 #include <fstream>
 #include <new>
-#include <regex>
 
 #include "base/error.h"
 #include "base/sanitizers.h"
@@ -74,10 +73,6 @@ bool looks_hostile(const ShaderSource& source) {
     const MacroUse use = estimate_macros(text);
     if (use.macros > kManyMacros || use.tokens > kManyTokens || use.unclear) return true;
   }
-  static const std::regex array_constructor(R"(\b(\w+)\s*\[[^\]]*\]\s*(?:\[[^\]]*\]\s*)*\()");
-  if (text.find("precise") == std::string::npos || text.find("struct") == std::string::npos) return false;
-  for (std::sregex_iterator found(text.begin(), text.end(), array_constructor), end; found != end; ++found)
-    if (std::regex_search(text, std::regex("struct\\s+" + (*found)[1].str() + "\\b"))) return true;
   return false;
 }
 

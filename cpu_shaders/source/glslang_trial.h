@@ -9,8 +9,7 @@
 
 namespace twinshade {
 
-// Whether a shader is long, deeply nested, full of macros, or makes arrays of structs by constructors with precise
-// about.
+// Whether a shader is long, deeply nested or full of macros.
 bool looks_hostile(const ShaderSource& source);
 
 // Runs `work` in a child process; exceptions in it are its own affair. UserError naming the shader's main file where

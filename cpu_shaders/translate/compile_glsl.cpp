@@ -18,10 +18,16 @@
 #include "cpu_shaders/translate/limits.h"
 #include "cpu_shaders/translate/locate_outputs.h"
 #include "cpu_shaders/translate/mark_divisions.h"
+#include "cpu_shaders/translate/precise_words.h"
 #include "cpu_shaders/translate/source_lines.h"
 
 namespace twinshade {
 namespace {
+
+// Whether `precise` is a keyword of the version: elsewhere it is refused, or a name.
+bool knows_precise(const ShaderSource& source, int version) {
+  return version >= 400 || source.text.find("_gpu_shader5") != std::string::npos;
+}
 
 // __VERSION__ is what the author's #version says, whatever the shader is read as.
 std::string text_as_version(const ShaderSource& source, int version) {
@@ -96,7 +102,8 @@ std::string link_error(const ShaderSource& source, const std::string& log) {
 }
 
 std::vector<std::uint32_t> compile(const ShaderSource& source, int version, bool make_spirv) {
-  const std::string text = text_as_version(source, version);
+  std::string text = text_as_version(source, version);
+  if (knows_precise(source, version)) text = without_precise(source, std::move(text));
   const EShLanguage stage = source.stage == ShaderStage::compute ? EShLangCompute : EShLangFragment;
   glslang::TShader shader(stage);
   const char* strings[] = {text.c_str()};
@@ -181,7 +188,9 @@ std::vector<std::uint32_t> compile_glsl(const ShaderSource& source) {
   const std::lock_guard<std::mutex> lock(mutex);
   start_glslang();
   refuse_large_text(source);
-  if (looks_hostile(source)) try_in_child(source, [&] { compile_any_version(source); });
+  if (looks_hostile(source) ||
+      may_lose_itself(knows_precise(source, source.version) ? without_precise(source, source.text) : source.text))
+    try_in_child(source, [&] { compile_any_version(source); });
   return compile_any_version(source);
 }
 

@@ -65,7 +65,7 @@ class Builder {
   }
 
   void add_receiver(Receivers& out, std::uint32_t cell, std::uint32_t first_site, std::uint32_t triangle, double b1,
-                    double b2) const {
+                    double b2, double area) const {
     const std::uint32_t* corner = corners(triangle);
     glm::dvec3 tangent(0);
     double handedness = 1;
@@ -77,7 +77,7 @@ class Builder {
                                            rays_.geometric_normal(triangle));
     out.receiver_of_cell[cell] = std::uint32_t(out.list.size());
     out.list.push_back({cell, first_site, std::uint32_t(out.sites.size()) - first_site, glm::vec3(frame[0]),
-                        glm::vec3(frame[1]), glm::vec3(frame[2]), albedo_at(scene_, triangle, b1, b2)});
+                        glm::vec3(frame[1]), glm::vec3(frame[2]), albedo_at(scene_, triangle, b1, b2), float(area)});
   }
 
  private:
@@ -113,7 +113,7 @@ Receivers lightmap_receivers(const Scene& scene, const RayScene& rays, std::uint
     if (owner.triangle == kNoTriangle) continue;
     const std::uint32_t first_site = std::uint32_t(out.sites.size());
     if (builder.add_site(out, owner.triangle, owner.b1, owner.b2))
-      builder.add_receiver(out, cell, first_site, owner.triangle, owner.b1, owner.b2);
+      builder.add_receiver(out, cell, first_site, owner.triangle, owner.b1, owner.b2, owner.surface);
   }
   return out;
 }
@@ -137,7 +137,8 @@ Receivers vertex_receivers(const Scene& scene, const RayScene& rays) {
   for (std::uint32_t v = 0; v < out.width; ++v) {
     const std::uint32_t first_site = std::uint32_t(out.sites.size());
     std::uint32_t home = kNoTriangle;
-    double home_b1 = 0, home_b2 = 0;
+    double home_b1 = 0, home_b2 = 0, area = 0;
+    for (std::uint32_t i = first[v]; i < first[v + 1]; ++i) area += triangle_area(scene, corners[i] / 3) / 3;
     for (std::uint32_t i = first[v]; i < first[v + 1] && out.sites.size() - first_site < kMaxSites; ++i) {
       const std::uint32_t triangle = corners[i] / 3, corner = corners[i] % 3;
       const double b1 = corner == 1 ? 1 - 2 * kInset : kInset, b2 = corner == 2 ? 1 - 2 * kInset : kInset;
@@ -145,7 +146,7 @@ Receivers vertex_receivers(const Scene& scene, const RayScene& rays) {
       home = triangle;
       home_b1 = corner == 1 ? 1 : 0, home_b2 = corner == 2 ? 1 : 0;
     }
-    if (home != kNoTriangle) builder.add_receiver(out, v, first_site, home, home_b1, home_b2);
+    if (home != kNoTriangle) builder.add_receiver(out, v, first_site, home, home_b1, home_b2, area);
   }
   return out;
 }

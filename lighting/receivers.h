@@ -23,6 +23,7 @@ struct Receiver {
   std::uint32_t first_site, site_count;  // rays are dealt to the sites: Receivers::site_of
   glm::vec3 tangent, bitangent, normal;  // orthonormal, world space
   glm::vec3 albedo;                      // linear; for light that bounces off here
+  float area;                            // of the surface that it stands for, in the world
 };
 
 inline constexpr std::uint32_t kNoReceiver = 0xffffffffu;

@@ -30,38 +30,10 @@ namespace twinshade {
 namespace {
 
 // Raise when the same inputs give another bake.
-constexpr int kBakeVersion = 3;
+constexpr int kBakeVersion = 4;
 // A receiver that sees out in no more than kInsideShare of its rays may be inside something; so many closest hits
 // decide.
 constexpr std::uint32_t kInsideRays = 64;
-
-// Square metres that each receiver stands for: a texel by its triangle's scale, a vertex by a third of its triangles.
-void measure_areas(const Scene& scene, const Receivers& receivers, std::vector<float>& area) {
-  const auto triangle_area = [&](std::size_t t) {
-    const std::uint32_t* v = scene.indices.data() + 3 * t;
-    const glm::dvec3 a(scene.positions[v[0]]), b(scene.positions[v[1]]), c(scene.positions[v[2]]);
-    const glm::dvec3 cross = glm::cross(b - a, c - a);
-    const double value = 0.5 * std::sqrt(glm::dot(cross, cross));
-    return std::isfinite(value) ? value : 0;
-  };
-  if (receivers.storage == CoefficientStorage::vertex) {
-    std::vector<double> sum(area.size(), 0);
-    for (std::size_t t = 0; t < scene.triangle_count(); ++t)
-      for (int k = 0; k < 3; ++k) sum[scene.indices[3 * t + k]] += triangle_area(t) / 3;
-    for (const Receiver& receiver : receivers.list) area[receiver.cell] = float(sum[receiver.cell]);
-    return;
-  }
-  const double texel = 1.0 / (double(receivers.width) * receivers.height);
-  for (const Receiver& receiver : receivers.list) {
-    const std::size_t t = receivers.sites[receiver.first_site].triangle;
-    const std::uint32_t* v = scene.indices.data() + 3 * t;
-    const glm::dvec2 a(scene.lightmap_uvs[v[0]]), b(scene.lightmap_uvs[v[1]]), c(scene.lightmap_uvs[v[2]]);
-    const glm::dvec2 e1 = b - a, e2 = c - a;
-    const double in_map = 0.5 * std::abs(e1.x * e2.y - e1.y * e2.x), world = triangle_area(t);
-    // A triangle smaller than a texel is all that its texel shows
-    area[receiver.cell] = float(in_map > texel ? world * texel / in_map : world);
-  }
-}
 
 class Baker {
  public:
@@ -98,7 +70,7 @@ class Baker {
         progress.add((last - first) * options_.rays);
       });
     }
-    measure_areas(scene_, receivers_, out_.area);
+    for (const Receiver& receiver : receivers_.list) out_.area[receiver.cell] = receiver.area;
     const FillPlan fill = receivers_.storage == CoefficientStorage::lightmap
                               ? FillPlan::lightmap(known_, receivers_, kGutter)
                               : FillPlan::vertices(known_, receivers_, scene_);

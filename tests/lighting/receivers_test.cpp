@@ -125,7 +125,7 @@ struct Row {
     for (std::uint32_t x = 0; x < 64; ++x)
       if (x < 12 || (x >= 40 && x < 44)) {
         receivers.receiver_of_cell[x] = std::uint32_t(receivers.list.size());
-        receivers.list.push_back({x, 0, 0, {}, {}, {}, {}});
+        receivers.list.push_back({x, 0, 0, {}, {}, {}, {}, 0});
       }
   }
 };

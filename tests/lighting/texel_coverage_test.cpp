@@ -49,10 +49,14 @@ TEST_CASE("a triangle, long and thin or not, owns the texels that it reaches int
     if (i % 6 == 5) b = glm::round(b * float(size)) / float(size), c = glm::round(c * float(size)) / float(size);
     Scene scene;
     scene.lightmap_uvs = {a, b, c};
+    for (const glm::vec2& corner : scene.lightmap_uvs) scene.positions.emplace_back(corner, 5);
     scene.indices = {0, 1, 2};
     const dvec2 p[] = {dvec2(a) * double(size), dvec2(b) * double(size), dvec2(c) * double(size)};
     const std::vector<TexelOwner> owners = texel_owners(scene, size);
     CAPTURE(i);
+    double surface = 0;
+    for (const TexelOwner& owner : owners) surface += owner.surface;
+    CHECK(surface == doctest::Approx(triangle_area(scene, 0)).epsilon(1e-6));
     for (std::uint32_t cell = 0; cell < owners.size(); ++cell) {
       const double reached = reach(p, dvec2(cell % size, cell / size));
       if (std::fabs(reached) < 1e-9) continue;
@@ -76,10 +80,12 @@ TEST_CASE("many long thin triangles side by side leave no texel without an owner
     for (const glm::vec2& uv : {glm::vec2(0), border(k), border(k + 1)}) {
       scene.indices.push_back(std::uint32_t(scene.lightmap_uvs.size()));
       scene.lightmap_uvs.push_back(uv);
+      scene.positions.emplace_back(uv * 3.0f, 0);
     }
   for (const TexelOwner& owner : texel_owners(scene, kSize)) {
     REQUIRE(owner.triangle != kNobody);
     CHECK(owner.area > 0);
+    CHECK(owner.surface == doctest::Approx(9.0 / (kSize * kSize)).epsilon(1e-4));
   }
 }
 

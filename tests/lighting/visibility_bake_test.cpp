@@ -156,6 +156,23 @@ TEST_CASE("scenes without lightmap coordinates are baked per vertex, with a thir
   CHECK(area == doctest::Approx(4));
 }
 
+TEST_CASE("texels stand for all that they show: meshes finer than the lightmap weigh as much as coarse ones") {
+  // Two floors of the same size, the second of 100 x 100 rectangles; charts reach beyond the texels' middles or do not
+  Scene scene = scene_with_albedo(0.5f);
+  add_rectangle(scene, {-1, 0, 1}, {1, 0, 0}, {0, 0, -1}, {0.05f, 0.05f}, 0.4f);
+  for (int x = 0; x < 100; ++x)
+    for (int z = 0; z < 100; ++z)
+      add_rectangle(scene, {1 + x * 0.01f, 0, 1 - z * 0.01f}, {0.01f, 0, 0}, {0, 0, -0.01f},
+                    {0.55f + x * 0.004f, 0.05f + z * 0.004f}, 0.004f);
+  VisibilityOptions options;
+  options.lightmap_size = 32, options.rays = 16, options.use_cache = false, options.show_progress = false;
+  const VisibilityBake bake = bake_visibility(scene, options);
+  double coarse = 0, fine = 0;
+  for (std::uint32_t cell = 0; cell < 32 * 32; ++cell) (cell % 32 < 16 ? coarse : fine) += bake.area[cell];
+  CHECK(coarse == doctest::Approx(1).epsilon(1e-5));
+  CHECK(fine == doctest::Approx(1).epsilon(1e-3));
+}
+
 TEST_CASE("visibility does not depend on threads, and follows its seed") {
   VisibilityOptions options = fast_options(64);
   options.lightmap_size = 40;

@@ -156,7 +156,7 @@ TEST_CASE("textures that would be too large are refused in one line, with the re
                   UserError);
   CHECK_THROWS_AS(bundle_of(scene, bake, some_light(), {"unc3"}, lighting_with(TexturePacking::layers, 4097)),
                   UserError);
-  CHECK_THROWS_AS(bundle_of(scene, bake, some_light(), {"unc3"}, lighting_with(TexturePacking::layers, 0)), UserError);
+  CHECK_THROWS_AS(bundle_of(scene, bake, some_light(), {"unc3"}, lighting_with(TexturePacking::layers, -1)), UserError);
 }
 
 TEST_CASE("no light, one texel a map, more components than coefficients, all seeing the same: defined numbers") {

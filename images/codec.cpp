@@ -154,6 +154,9 @@ DecodedImage read_all(OIIO::ImageInput& input) {
   if (spec.get_int_attribute("Orientation", 1) != 1) refuse("it is stored turned or mirrored; save it upright");
 
   const std::vector<int> order = channels_read(spec.channelnames, std::string_view(input.format_name()) == "openexr");
+  for (const int channel : order)
+    if (spec.channelformat(channel).basetype == OIIO::TypeDesc::UINT32)
+      refuse("its channels are whole numbers of 32 bits, which have no largest one to divide by; save it as floats");
   DecodedImage image;
   image.width = std::uint32_t(spec.width);
   image.height = std::uint32_t(spec.height);

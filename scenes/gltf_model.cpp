@@ -336,6 +336,8 @@ class Reader {
       albedo = read_lookup(base, diffuse ? "diffuseTexture" : "baseColorTexture");
       normal = read_lookup(object, "normalTexture");
       if (normal.texture >= 0) normal_scale = gltf_number(object["normalTexture"], "scale", 1);
+      if (!diffuse && pbr.value("metallicFactor", 1.0) > 0)
+        notes_.insert("metals are drawn as matt surfaces of their base colour");
       if (object.value("alphaMode", "OPAQUE") != "OPAQUE")
         notes_.insert("transparent and cut-out materials are drawn opaque");
       if (object.contains("emissiveTexture") ||

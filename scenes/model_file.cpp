@@ -61,6 +61,7 @@ class Assembly {
       throw UserError(path_ + ": all its triangles lie within 1e-15 of one point; scale the model up");
     drop_unused_materials();
     check_colours();
+    limit_colours();
     decide_lightmap();
     say(missing_normals_, missing_normals_ + ": no normals; made from the triangles");
     say(missing_uvs_,
@@ -215,6 +216,23 @@ class Assembly {
           throw UserError(path_ + ": material '" + material.name + "': its colour (" +
                           std::to_string(material.albedo.x) + ", " + std::to_string(material.albedo.y) + ", " +
                           std::to_string(material.albedo.z) + ") is negative or not finite");
+  }
+
+  // More than it receives no surface reflects: frames and bounces alike.
+  void limit_colours() {
+    bool limited = false;
+    const auto limit = [&](float& value) {
+      limited |= value > 1;
+      value = std::min(value, 1.0f);
+    };
+    for (Material& material : scene_.materials) {
+      for (int c = 0; c < 3; ++c) limit(material.albedo[c]);
+      if (material.albedo_image < 0) continue;
+      std::vector<float>& texels = scene_.images[std::size_t(material.albedo_image)].texels;
+      for (std::size_t i = 0; i < texels.size(); ++i)
+        if (i % 4 != 3) limit(texels[i]);
+    }
+    if (limited) scene_.notes.push_back("colours above 1 are drawn as 1: surfaces reflect no more than they receive");
   }
 
   void decide_lightmap() {

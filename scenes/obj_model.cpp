@@ -197,28 +197,32 @@ class Reader {
     material.albedo = {colour.r, colour.g, colour.b};
     aiString file;
     if (from.GetTexture(aiTextureType_DIFFUSE, 0, &file) == AI_SUCCESS) {
-      material.albedo_image = use_image(file.C_Str(), false);
+      material.albedo_image = use_image(file.C_Str(), Use::colours);
       // Many exporters write a black Kd beside an image.
       if (material.albedo == glm::vec3(0)) material.albedo = glm::vec3(1);
     }
-    if (from.GetTexture(aiTextureType_NORMALS, 0, &file) == AI_SUCCESS ||
-        from.GetTexture(aiTextureType_HEIGHT, 0, &file) == AI_SUCCESS)
-      material.normal_image = use_image(file.C_Str(), true);
+    if (from.GetTexture(aiTextureType_NORMALS, 0, &file) == AI_SUCCESS)
+      material.normal_image = use_image(file.C_Str(), Use::normals);
+    else if (from.GetTexture(aiTextureType_HEIGHT, 0, &file) == AI_SUCCESS)
+      material.normal_image = use_image(file.C_Str(), Use::bumps);
     model_.materials.push_back(material);
   }
 
+  // bumps: a normal map by its looks, or a height field. normals: the file says so (`norm`).
+  enum class Use { colours, normals, bumps };
+
   // -1: a height field where a normal map is wanted.
-  int use_image(const std::string& name, bool is_normal) {
+  int use_image(const std::string& name, Use use) {
     const std::string path = texture_path(path_, name);
-    const auto key = std::make_pair(path, is_normal);
+    const auto key = std::make_pair(path, use);
     if (const auto known = images_.find(key); known != images_.end()) return known->second;
     model_.files.push_back(path);
     const DecodedImage decoded = decode_image_file(path);
-    if (is_normal && !looks_like_normal_map(decoded)) {
+    if (use == Use::bumps && !looks_like_normal_map(decoded)) {
       model_.notes.push_back("bump map " + name + " is a height field, not a normal map: ignored");
       return images_[key] = -1;
     }
-    model_.images.push_back(is_normal ? normal_image(decoded, 1) : albedo_image(decoded, path));
+    model_.images.push_back(use == Use::colours ? albedo_image(decoded, path) : normal_image(decoded, 1));
     return images_[key] = int(model_.images.size()) - 1;
   }
 
@@ -248,7 +252,7 @@ class Reader {
   std::map<std::string, std::size_t> used_;  // materials by name, with the first line of each
   bool library_missing_ = false;
   std::set<std::string> made_;  // by the libraries
-  std::map<std::pair<std::string, bool>, int> images_;
+  std::map<std::pair<std::string, Use>, int> images_;
 };
 
 }  // namespace

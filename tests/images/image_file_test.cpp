@@ -215,6 +215,14 @@ TEST_CASE("channels that make no picture, or several, are refused by their names
         }).ends_with("it has R, G and B in the layers a, b.c; save the one that is meant alone"));
 }
 
+TEST_CASE("whole numbers of 32 bits are refused, not divided by their largest") {
+  const TemporaryFolder folder;
+  const std::vector<std::uint32_t> four{4, 4, 4};
+  write_image(folder.name("c.exr"), 1, 1, 3, four, nullptr, {"R", "G", "B"});
+  CHECK(user_error([&] { decode_image_file(folder.name("c.exr")); }).find("whole numbers of 32 bits") !=
+        std::string::npos);
+}
+
 TEST_CASE("a picture that may not grow to its size is refused with the reason, whatever its format") {
   const TemporaryFolder folder;
   const auto bytes = noise<std::uint8_t>(64 * 64 * 3);

@@ -155,6 +155,20 @@ TEST_CASE("the file's own tangents are kept whichever uvs the normal map is on")
   }
 }
 
+TEST_CASE("metals are drawn as matt surfaces, which is said where there are any") {
+  const TemporaryFolder folder;
+  for (const double metallic : {0.0, 0.25, 1.0}) {
+    GltfWriter writer;
+    json primitive = writer.square();
+    primitive["material"] = 0;
+    writer.mesh(primitive);
+    writer.root["materials"].push_back({{"pbrMetallicRoughness", json::object()}});
+    if (metallic < 1)
+      writer.root["materials"][0]["pbrMetallicRoughness"]["metallicFactor"] = metallic;  // 1 is meant else
+    CHECK(has_note(load_scene(save(folder, writer)), "metals") == (metallic > 0));
+  }
+}
+
 TEST_CASE("without normals they are made flat, without uvs frames come from the normal; both are said") {
   TemporaryFolder folder;
   GltfWriter writer;

@@ -15,6 +15,7 @@ void write_image(const std::string& path, int width, int height, int channels, c
                  const char* compression = nullptr, const std::vector<std::string>& channel_names = {}) {
   const auto format = sizeof(T) == 1   ? OIIO::TypeDesc::UINT8
                       : sizeof(T) == 2 ? OIIO::TypeDesc::UINT16
+                      : T(0.5f) == 0   ? OIIO::TypeDesc::UINT32
                                        : OIIO::TypeDesc::FLOAT;
   const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(path);
   REQUIRE(out);

@@ -86,6 +86,23 @@ TEST_CASE("an OBJ without normals is smooth where its faces meet at small angles
   }
 }
 
+TEST_CASE("norm is a normal map whatever its mean, colours above 1 are drawn as 1 and said") {
+  TemporaryFolder folder;
+  write_image(folder.name("slanted.png"), 1, 1, 3, std::vector<std::uint8_t>{230, 128, 200});
+  write_image(folder.name("bright.exr"), 1, 1, 3, std::vector<float>{3, 0.5f, 0.25f});
+  folder.write("cube.mtl", "newmtl red\nKd 2 1 0.5\nnorm slanted.png\nnewmtl map\nKd 1 1 1\nmap_Kd bright.exr\n");
+  const Scene scene = load_scene(folder.write("cube.obj", kCube));
+  REQUIRE(scene.materials.size() == 2);
+  CHECK(scene.materials[0].normal_image >= 0);
+  CHECK(!has_note(scene, "height field"));
+  CHECK(scene.materials[0].albedo == glm::vec3(1, 1, 0.5f));
+  REQUIRE(scene.materials[1].albedo_image >= 0);
+  const std::vector<float>& texels = scene.images[std::size_t(scene.materials[1].albedo_image)].texels;
+  CHECK(texels[0] == 1);
+  CHECK(texels[1] == 0.5f);
+  CHECK(has_note(scene, "colours above 1"));
+}
+
 TEST_CASE("what is missing from an OBJ is said or refused") {
   TemporaryFolder folder;
   const Scene plain = load_scene(folder.write("cube.obj", kCube));

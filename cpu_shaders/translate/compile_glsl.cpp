@@ -14,6 +14,7 @@
 #include "cpu_shaders/source/glslang_environment.h"
 #include "cpu_shaders/source/glslang_trial.h"
 #include "cpu_shaders/source/preprocess.h"
+#include "cpu_shaders/translate/constant_initializers.h"
 #include "cpu_shaders/translate/find_recursion.h"
 #include "cpu_shaders/translate/limits.h"
 #include "cpu_shaders/translate/locate_outputs.h"
@@ -180,6 +181,23 @@ std::vector<std::uint32_t> compile_any_version(const ShaderSource& source) {
   throw UserError(complaint);
 }
 
+// With constants that glslang does not fold computed, where it refuses them.
+std::vector<std::uint32_t> compile_with_constants(const ShaderSource& source) {
+  try {
+    return compile_any_version(source);
+  } catch (const UserError& error) {
+    ShaderSource computed = source;
+    if (is_about_constant_initializer(error.what())) computed.text = with_computed_constants(source.text);
+    if (computed.text == source.text) throw;
+    try {
+      return compile_any_version(computed);
+    } catch (const UserError& other) {  // of the size of an array, say, that is no constant now
+      if (is_about_constant_initializer(other.what())) throw;
+      throw UserError(error.what());
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> compile_glsl(const ShaderSource& source) {
@@ -190,8 +208,8 @@ std::vector<std::uint32_t> compile_glsl(const ShaderSource& source) {
   refuse_large_text(source);
   if (looks_hostile(source) ||
       may_lose_itself(knows_precise(source, source.version) ? without_precise(source, source.text) : source.text))
-    try_in_child(source, [&] { compile_any_version(source); });
-  return compile_any_version(source);
+    try_in_child(source, [&] { compile_with_constants(source); });
+  return compile_with_constants(source);
 }
 
 }  // namespace twinshade

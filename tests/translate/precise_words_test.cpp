@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "base/error.h"
 #include "cpu_shaders/translate/translate.h"
 
 namespace twinshade {

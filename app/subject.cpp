@@ -209,14 +209,11 @@ Bundle bundle_from_scene(const SubjectOptions& options, const ShadingOptions& sh
   return bundle;
 }
 
-// Pictures of light with fewer rows, or columns than twice that, are refined to twice as many: by then all integrals
-// agree to a fraction of a percent, and turning or blending them takes nothing away.
+// Pictures of light with fewer rows are refined: by twice as many all integrals agree to a fraction of a percent.
 constexpr std::uint32_t kFewRows = 32;
 
 Environment load_refined(const std::string& name, bool clamp_radiance) {
-  const Environment environment = load_environment(name, clamp_radiance);
-  return refine_environment(environment, environment.width < 2 * kFewRows ? 4 * kFewRows : 0,
-                            environment.height < kFewRows ? 2 * kFewRows : 0);
+  return refine_small_environment(load_environment(name, clamp_radiance), kFewRows);
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ namespace {
 
 constexpr int kFewestCellPoints = 4;                               // of icosahedral_quadrature: 3,840 normals
 constexpr std::uint32_t kPictureWidth = 128, kPictureHeight = 64;  // of pictures
-// Pixels count as lights from their centres. Of fewer rows, or columns than twice that, they are refined to twice as
-// many: what that leaves of the light's error is a few 1e-6 of it.
+// Pixels count as lights from their centres. Pictures of fewer rows are refined: what that leaves of the light's error
+// is a few 1e-6 of it.
 constexpr std::uint32_t kFewRows = 128;
 constexpr std::size_t kMostProducts = 1600000000;  // of pixels and normals: some seconds
 
@@ -32,13 +32,6 @@ std::vector<double> over_pi(std::vector<double> values) {
 
 std::vector<std::string> chosen_probes(const ExperimentOptions& options) {
   return options.probes.empty() ? environment_names() : options.probes;
-}
-
-Environment load_refined(const std::string& path, bool clamp_radiance) {
-  const Environment environment = load_environment(path, clamp_radiance);
-  if (environment.width >= 2 * kFewRows && environment.height >= kFewRows) return environment;
-  return refine_environment(environment, environment.width < 2 * kFewRows ? 4 * kFewRows : 0,
-                            environment.height < kFewRows ? 2 * kFewRows : 0);
 }
 
 }  // namespace
@@ -59,7 +52,8 @@ std::vector<Probe> load_probes(const ExperimentOptions& options) {
   const std::vector<std::string> names = probe_names(options), paths = chosen_probes(options);
   std::vector<Probe> probes;
   for (std::size_t i = 0; i < paths.size(); ++i)
-    probes.push_back({names[i], load_refined(paths[i], options.clamp_radiance)});
+    probes.push_back(
+        {names[i], refine_small_environment(load_environment(paths[i], options.clamp_radiance), kFewRows)});
   return probes;
 }
 

@@ -169,6 +169,11 @@ Environment refine_environment(const Environment& environment, std::uint32_t wid
   return result;
 }
 
+Environment refine_small_environment(const Environment& environment, std::uint32_t few_rows) {
+  return refine_environment(environment, environment.width < 2 * few_rows ? 4 * few_rows : 0,
+                            environment.height < few_rows ? 2 * few_rows : 0);
+}
+
 Environment blend_environments(const Environment& a, const Environment& b, double part) {
   if (!(part >= 0 && part <= 1)) throw UserError("blend of environments must be from 0 to 1");
   const std::uint32_t width = std::max(a.width, b.width), height = std::max(a.height, b.height);

@@ -38,6 +38,10 @@ class PixelDirections {
 // direction of their centres in some integrals and are interpolated in others; large ones differ between the two.
 Environment refine_environment(const Environment& environment, std::uint32_t width, std::uint32_t height);
 
+// A picture of fewer rows, or of fewer columns than twice that, with at least twice as many: one light is then the same
+// however small it was stored, and turning or blending it takes nothing away.
+Environment refine_small_environment(const Environment& environment, std::uint32_t few_rows);
+
 // "sky", "studio", "window", "constant", or a .hdr/.exr file. UserError: unknown name (nearest suggested), unreadable
 // or truncated file, NaN, infinite, negative radiance or one above 1e30 (naming the pixel; clamp_radiance replaces NaN
 // and negatives by 0 and what is too large by the largest value that is not).

@@ -46,6 +46,15 @@ TEST_CASE("refining gives every pixel several of its radiance, and leaves what i
     for (std::uint32_t x = 0; x < 9; ++x) CHECK(fine.radiance[y * 9 + x] == environment.radiance[y / 3 * 3 + x / 3]);
   CHECK(refine_environment(fine, 9, 6).radiance == fine.radiance);
   CHECK(refine_environment(environment, 0, 4).width == 3);
+  const auto size = [](std::uint32_t width, std::uint32_t height) {
+    const Environment small{"", width, height, std::vector<glm::vec3>(std::size_t(width) * height)};
+    const Environment refined = refine_small_environment(small, 32);
+    return glm::uvec2(refined.width, refined.height);
+  };
+  CHECK(size(64, 32) == glm::uvec2(64, 32));
+  CHECK(size(63, 32) == glm::uvec2(189, 32));
+  CHECK(size(64, 31) == glm::uvec2(64, 93));
+  CHECK(size(1, 1) == glm::uvec2(128, 64));
 }
 
 TEST_CASE("environments of different sizes blend without losing light, whichever comes first") {

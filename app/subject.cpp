@@ -178,7 +178,7 @@ void add_visibility(Bundle& bundle, const SubjectOptions& options, const Shading
       output.note(
           fmt::format("{}: of an even width, {}, it has no texels along +-x and +-y, which normals of walls and "
                       "floors read; give an odd one (--map-width {})",
-                      map->name, lighting.map_width, lighting.map_width + 1));
+                      map->name, lighting.map_width, lighting.map_width - 1));
   add_visibility(bundle, scene, bakes, environment_radiance(environment, 6), baked, lighting);
 }
 

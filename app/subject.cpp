@@ -6,6 +6,8 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <string_view>
+#include <vector>
 
 #include "app/memory_needed.h"
 #include "base/error.h"
@@ -105,31 +107,44 @@ bool has_coefficients(const Bundle& bundle, const TechniqueInfo& technique, Coef
   return false;
 }
 
-// The storages to draw each technique from. has(technique, storage): whether it is there; missing(storage): why not.
+// What a message calls the place that light is read from.
+std::string_view storage_words(CoefficientStorage storage) {
+  switch (storage) {
+    case CoefficientStorage::lightmap:
+      return "a lightmap";
+    case CoefficientStorage::vertex:
+      return "vertices";
+    case CoefficientStorage::volume:
+      return "a volume";
+  }
+  return "";
+}
+
+// The storages to draw each technique from. has(technique, storage): whether it is there; missing(technique, storages):
+// why it is in none of those that it could read.
 template <class Has, class Missing>
 void choose(Subject& subject, const std::vector<const TechniqueInfo*>& chosen, const ShadingOptions& shading,
             const Has& has, const Missing& missing) {
   for (const TechniqueInfo* technique : chosen) {
-    std::string reason;
+    std::vector<CoefficientStorage> unread, absent;
     const std::size_t before = subject.drawn.size();
     for (const CoefficientStorage storage : kStorages) {
       const bool asked = shading.light == LightSource::automatic || shading.light == LightSource::all ||
                          int(shading.light) == 1 + int(storage);
       if (!asked) continue;
       if (!can_read(*technique, storage)) {
-        if (reason.empty())
-          reason =
-              fmt::format("it does not read its light from {}", storage == CoefficientStorage::lightmap ? "lightmaps"
-                                                                : storage == CoefficientStorage::vertex ? "vertices"
-                                                                                                        : "a volume");
+        unread.push_back(storage);
       } else if (!has(*technique, storage)) {
-        reason = missing(storage);
+        absent.push_back(storage);
       } else {
         subject.drawn.push_back({technique, storage});
         if (shading.light == LightSource::automatic) break;
       }
     }
     if (subject.drawn.size() > before) continue;
+    const std::string reason = absent.empty()
+                                   ? fmt::format("it does not read its light from {}", storage_words(unread.front()))
+                                   : missing(*technique, absent);
     if (!wants_all(shading)) throw UserError(fmt::format("technique {}: {}", technique->name, reason));
     subject.skipped.emplace_back(technique->name, reason);
   }
@@ -303,9 +318,11 @@ Subject load_subject(const SubjectOptions& options, const ShadingOptions& shadin
         [&](const TechniqueInfo& technique, CoefficientStorage storage) {
           return has_coefficients(subject.bundle, technique, storage);
         },
-        [&](CoefficientStorage storage) {
-          return fmt::format("{} has no coefficients for it ({}); bake it again with it", options.scene,
-                             storage_name(storage));
+        [&](const TechniqueInfo& technique, const std::vector<CoefficientStorage>& storages) {
+          std::vector<std::string_view> places(storages.size());
+          std::transform(storages.begin(), storages.end(), places.begin(), storage_words);
+          return fmt::format("{} has nothing for it in {}; bake it again with --technique {}", options.scene,
+                             fmt::join(places, " or "), technique.name);
         });
   } else {
     require_frame_memory(options.width, options.height, "cpu");
@@ -316,8 +333,8 @@ Subject load_subject(const SubjectOptions& options, const ShadingOptions& shadin
     choose(
         subject, chosen, shading,
         [&](const TechniqueInfo& technique, CoefficientStorage storage) { return can_keep(scene, technique, storage); },
-        [&](CoefficientStorage storage) {
-          return options.scene + (storage == CoefficientStorage::lightmap
+        [&](const TechniqueInfo&, const std::vector<CoefficientStorage>& storages) {
+          return options.scene + (storages.back() == CoefficientStorage::lightmap
                                       ? " has no lightmap; use --light vertex"
                                       : " has no surfaces in the world whose visibility could be baked");
         });

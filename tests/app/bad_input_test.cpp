@@ -246,6 +246,16 @@ TEST_CASE("damaged bundles are refused by name, and those that are not there or 
   check_refused({"render", folder.file("flipped.bundle", bytes), "--technique", "lightmap"}, {"flipped.bundle"});
 }
 
+TEST_CASE("a bundle without a technique's coefficients names all places that it looked in, and the remedy") {
+  const Folder folder;
+  const std::string bundle = folder / "quad.bundle";
+  REQUIRE(run_twinshade(small_quad({"bake"}, {"--technique", "h4", "-o", bundle})).code == 0);
+  check_refused(
+      {"render", bundle, "--technique", "sh3"},
+      {"technique sh3: " + bundle + " has nothing for it in a lightmap or vertices or a volume", "--technique sh3"});
+  check_refused({"render", bundle, "--technique", "h6", "--light", "vertex"}, {"in vertices; bake"});
+}
+
 TEST_CASE("options that would change a bundle are refused, not ignored") {
   const Folder folder;
   const std::string bundle = folder / "b.bundle";

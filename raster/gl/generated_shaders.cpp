@@ -143,9 +143,10 @@ std::string ShaderGenerator::head() const {
   std::string head = "#version " + std::to_string(glsl_version_) + " core\n";
   if (glsl_version_ == 330)
     for (const char* extension :
-         {"gpu_shader5", "shader_storage_buffer_object", "shading_language_420pack", "explicit_uniform_location",
-          "shading_language_packing", "arrays_of_arrays", "shader_image_load_store", "texture_query_levels"})
-      head += "#extension GL_ARB_" + std::string(extension) + " : enable\n";
+         {"ARB_gpu_shader5", "ARB_shader_storage_buffer_object", "ARB_shading_language_420pack",
+          "ARB_explicit_uniform_location", "ARB_shading_language_packing", "ARB_arrays_of_arrays",
+          "ARB_shader_image_load_store", "ARB_texture_query_levels", "ARB_enhanced_layouts", "EXT_shader_integer_mix"})
+      head += "#extension GL_" + std::string(extension) + " : enable\n";
   if (!source_.es)  // what ES shaders ask for is part of desktop GLSL 4.50
     for (const std::string& extension : shader_.extensions) head += extension + "\n";
   // Blocks that name no layout have the translation's: a driver's own would be as it likes.

@@ -54,6 +54,24 @@ TEST_CASE("the exact dialect shades to the same bits on softpipe") {
   CHECK(result.pixels_differ == 0);
 }
 
+TEST_CASE("what GLSL 3.30 lacks and softpipe has by extensions is asked for: mix of integers, offsets of blocks") {
+  CHECK(shaded_alike("in vec3 v_color; out vec4 c;\n"
+                     "void main() {\n"
+                     "  ivec2 i = mix(ivec2(1, 2), ivec2(3, 4), greaterThan(v_color.xy, vec2(0.5)));\n"
+                     "  c = vec4(i, mix(1u, 2u, v_color.z > 0.5), mix(false, true, v_color.x > 0.25));\n"
+                     "}\n")
+            .pixels_differ == 0);
+  Bundle bundle = test::quad(6, 4);
+  bundle.buffers = {{"Params", false, std::vector<std::byte>(48, std::byte{0x40})}};
+  const ShaderSource source = shader(
+      "layout(std140) uniform Params { layout(offset = 16) float a; layout(offset = 32) vec2 b; };\n"
+      "in vec2 v_uv; out vec4 c; void main() { c = vec4(v_uv, a, b.y); }");
+  DrawOptions options;
+  options.capture_attributes = true;
+  const Frame reference = make_gl_renderer(GlBackend::egl)->draw(bundle, source, options);
+  CHECK(compare_frames(reference, shade_on_softpipe(bundle, source, reference, {}, kTimeLimit)).pixels_differ == 0);
+}
+
 TEST_CASE("pixels beside uncovered ones store to array elements as the others do") {
   // softpipe takes a store's index from the first pixel of a quad.
   CHECK(shaded_alike(kInputs +

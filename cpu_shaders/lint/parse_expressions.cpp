@@ -371,8 +371,8 @@ std::vector<const Function*> Parser::find_functions(const Expression& call) cons
     candidates.push_back(&it->second);
     if (auto list = conversions(it->second, call.operands)) fitting.emplace_back(&it->second, std::move(*list));
   }
-  // None fits: a built-in function of the same name is called, or we took some argument for another type than it is.
-  if (fitting.empty() && builtin_result(call).base == Base::unknown) return candidates;
+  // None fits: we took some argument for another type than it is. (Built-in functions of the same name are hidden.)
+  if (fitting.empty()) return candidates;
   for (const auto& [function, list] : fitting) {
     const bool is_best = std::none_of(fitting.begin(), fitting.end(),
                                       [&list = list](const auto& other) { return is_better(other.second, list); });

@@ -5,10 +5,8 @@
 #include <glslang/SPIRV/GlslangToSpv.h>
 
 #include <algorithm>
-#include <array>
 #include <mutex>
 #include <regex>
-#include <string_view>
 
 #include "base/error.h"
 #include "cpu_shaders/source/glslang_environment.h"
@@ -16,6 +14,7 @@
 #include "cpu_shaders/source/preprocess.h"
 #include "cpu_shaders/translate/constant_initializers.h"
 #include "cpu_shaders/translate/find_recursion.h"
+#include "cpu_shaders/translate/free_names.h"
 #include "cpu_shaders/translate/limits.h"
 #include "cpu_shaders/translate/locate_outputs.h"
 #include "cpu_shaders/translate/mark_divisions.h"
@@ -37,60 +36,6 @@ std::string text_as_version(const ShaderSource& source, int version) {
   ShaderSource expanded = source;
   expanded.text = preprocess(source);
   return glslang_text(expanded, version);
-}
-
-constexpr std::string_view kOfEs300 = "_of_es_300";
-
-// Names that ES 310 takes for functions and keywords of its own are free in ES 300: there they get an ending. Macros
-// that the author calls so are expanded before.
-std::string with_free_names(const ShaderSource& source) {
-  constexpr std::array kNames = {"bitCount",
-                                 "bitfieldExtract",
-                                 "bitfieldInsert",
-                                 "bitfieldReverse",
-                                 "findLSB",
-                                 "findMSB",
-                                 "frexp",
-                                 "ldexp",
-                                 "fma",
-                                 "imulExtended",
-                                 "umulExtended",
-                                 "uaddCarry",
-                                 "usubBorrow",
-                                 "packUnorm4x8",
-                                 "packSnorm4x8",
-                                 "unpackUnorm4x8",
-                                 "unpackSnorm4x8",
-                                 "textureGather",
-                                 "textureGatherOffset",
-                                 "buffer",
-                                 "precise"};
-  const auto has = [](const std::string& text) {
-    return [&text](const char* name) { return text.find(name) != std::string::npos; };
-  };
-  if (std::none_of(kNames.begin(), kNames.end(), has(source.text))) return source.text;
-  const std::string text = preprocess(source);
-  constexpr std::array kMakePreciseAKeyword = {"_gpu_shader5", "GL_ANDROID_extension_pack_es31a"};  // extensions
-  const bool precise_is_keyword = std::any_of(kMakePreciseAKeyword.begin(), kMakePreciseAKeyword.end(), has(text));
-  std::string defines;
-  for (const std::string name : kNames)
-    if (has(text)(name.c_str()) && !(name == "precise" && precise_is_keyword))
-      defines += "#define " + name + " " + name + std::string(kOfEs300) + "\n";
-  const std::size_t version_end = text.find('\n') + 1;
-  return text.substr(0, version_end) + defines + text.substr(version_end);
-}
-
-// The shader's interface keeps its names.
-void drop_ending(std::vector<std::uint32_t>& words) {
-  constexpr std::size_t kHeader = 5;
-  for (std::size_t at = kHeader; at < words.size() && words[at] >> 16 != 0; at += words[at] >> 16) {
-    const std::uint32_t op = words[at] & 0xffff;
-    if (op != spv::OpName && op != spv::OpMemberName) continue;
-    char* name = reinterpret_cast<char*>(&words[at + (op == spv::OpName ? 2 : 3)]);
-    const std::string_view text(name);
-    if (text.size() > kOfEs300.size() && text.substr(text.size() - kOfEs300.size()) == kOfEs300)
-      std::fill(name + text.size() - kOfEs300.size(), name + text.size(), '\0');
-  }
 }
 
 // glslang's log of linking names the function on its next line, and no place.
@@ -165,10 +110,8 @@ std::vector<std::uint32_t> compile_any_version(const ShaderSource& source) {
   if (source.es && source.version == 300) {
     compile(source, 300, false);
     ShaderSource with_names = source;
-    with_names.text = with_free_names(source);
-    std::vector<std::uint32_t> words = compile(with_names, 310, true);
-    drop_ending(words);
-    return words;
+    with_names.text = with_free_names_of_es_300(source);
+    return compile(with_names, 310, true);
   }
   std::string complaint;
   for (const int version : glslang_versions(source)) {
@@ -198,6 +141,18 @@ std::vector<std::uint32_t> compile_with_constants(const ShaderSource& source) {
   }
 }
 
+std::vector<std::uint32_t> compile_with_free_names(const ShaderSource& source) {
+  ShaderSource free = source;
+  free.text = with_free_functions(source);
+  try {
+    std::vector<std::uint32_t> words = compile_with_constants(free);
+    drop_endings(words);
+    return words;
+  } catch (const UserError& error) {
+    throw UserError(without_endings(error.what()));
+  }
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> compile_glsl(const ShaderSource& source) {
@@ -208,8 +163,8 @@ std::vector<std::uint32_t> compile_glsl(const ShaderSource& source) {
   refuse_large_text(source);
   if (looks_hostile(source) ||
       may_lose_itself(knows_precise(source, source.version) ? without_precise(source, source.text) : source.text))
-    try_in_child(source, [&] { compile_with_constants(source); });
-  return compile_with_constants(source);
+    try_in_child(source, [&] { compile_with_free_names(source); });
+  return compile_with_free_names(source);
 }
 
 }  // namespace twinshade

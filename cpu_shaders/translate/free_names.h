@@ -1,0 +1,27 @@
+// Names that a shader's author may use and that glslang would take for its own: before it reads them they get an
+// ending, which its SPIR-V and its messages lose again.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cpu_shaders/shader_source.h"
+
+namespace twinshade {
+
+// The text of a shader in GLSL ES 300 for reading it as 310: what that takes for functions and keywords of its own is
+// free in 300. Macros that the author calls so are expanded before.
+std::string with_free_names_of_es_300(const ShaderSource& source);
+
+// The text of a shader in desktop GLSL with an ending at each name of a function that hides built-in ones
+// (hidden_built_ins.h): preprocessed then, else as it is.
+std::string with_free_functions(const ShaderSource& source);
+
+// SPIR-V whose names are the author's.
+void drop_endings(std::vector<std::uint32_t>& words);
+
+// A message that names things as the author does, and says so where a call may mean a built-in function that is hidden.
+std::string without_endings(const std::string& message);
+
+}  // namespace twinshade

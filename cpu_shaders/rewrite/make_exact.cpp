@@ -478,7 +478,6 @@ ExactShader make_exact(const ShaderSource& source, ExactScope scope) {
   for (const Token& token : tokens.tokens)
     if (stands_before(tokens.files[static_cast<std::size_t>(token.file)])) candidates.erase(token.text);
   give_way(new_keywords(tokens, source));
-  give_way(new_functions(tokens.tokens, source));
   const std::string before = rewrite_and_rename();
   for (const std::string& name : candidates)
     if ((name.rfind("exact_", 0) == 0 || name.rfind("written_", 0) == 0) && find_word(before, name) != before.npos)

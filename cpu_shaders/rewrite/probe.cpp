@@ -49,12 +49,6 @@ class Probe : public Listener {
     for (std::size_t i = 0; i < list.tokens.size(); ++i)
       if (list.tokens[i].text == "discard") edits_.replace(i, "");
   }
-  // Functions of these names give way to built-in ones.
-  void rename(const std::set<std::string>& functions) {
-    for (std::size_t i = 0; i + 1 < list_.tokens.size(); ++i)
-      if (functions.count(list_.tokens[i].text) != 0 && list_.tokens[i + 1].text == "(")
-        edits_.replace(i, "twinshadeprobe_" + list_.tokens[i].text);
-  }
   void read() {
     Parser parser(list_, *this);
     parser_ = &parser;
@@ -451,7 +445,6 @@ ProbedShader add_probes(const ShaderSource& source, const std::optional<std::set
   if (!only) compile_glsl(source);  // the parser relies on valid GLSL
   const TokenList tokens = tokens_to_parse(source);
   Probe probe(tokens, only);
-  if (source.es) probe.rename(new_functions(tokens.tokens, source));
   probe.read();
 
   ProbedShader result;

@@ -1,18 +1,20 @@
 #include "raster/gl/author_names.h"
 
 #include <cctype>
-#include <set>
 #include <string_view>
 
 #include "cpu_shaders/rewrite/new_keywords.h"
+#include "cpu_shaders/source/hidden_built_ins.h"
 
 namespace twinshade::gl {
 
 void rename_new_words(const ShaderSource& source, std::vector<Token>& tokens) {
-  const std::set<std::string> functions = new_functions(tokens, source);
-  for (const std::size_t at : new_keyword_tokens(tokens, source)) tokens[at].text = kNamePrefix + tokens[at].text;
-  for (Token& token : tokens)  // members and variables of that name, too: reflection has the author's
-    if (functions.count(token.text) != 0) token.text = kNamePrefix + token.text;
+  std::vector<std::string_view> words;
+  for (const Token& token : tokens) words.push_back(token.text);
+  std::vector<std::size_t> places = names_of_hiding_functions(words);
+  const std::vector<std::size_t> keywords = new_keyword_tokens(tokens, source);
+  places.insert(places.end(), keywords.begin(), keywords.end());
+  for (const std::size_t place : places) tokens[place].text = kNamePrefix + tokens[place].text;
 }
 
 std::string author_name(std::string name) {

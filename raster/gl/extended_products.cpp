@@ -14,24 +14,16 @@ bool is_extended_product(const Token& token) {
   return std::any_of(kFunctions.begin(), kFunctions.end(), [&](const char* f) { return token.text == f; });
 }
 
-// A call, not a declaration: that has a type before the name. Only a statement begins with a call.
-bool is_call(const std::vector<Token>& tokens, std::size_t at) {
-  if (at == 0 || at + 1 >= tokens.size() || tokens[at + 1].text != "(") return false;
-  const Token& before = tokens[at - 1];
-  return before.kind != Token::Kind::name || before.text == "else" || before.text == "do";
-}
-
 }  // namespace
 
 bool redirect_extended_products(std::vector<Token>& tokens) {
-  std::vector<std::size_t> calls;
-  for (std::size_t i = 0; i < tokens.size(); ++i) {
-    if (!is_extended_product(tokens[i])) continue;
-    if (!is_call(tokens, i)) return false;
-    calls.push_back(i);
+  bool any = false;
+  for (std::size_t i = 0; i + 1 < tokens.size(); ++i) {
+    if (!is_extended_product(tokens[i]) || tokens[i + 1].text != "(") continue;
+    tokens[i].text = own_name(tokens[i].text);
+    any = true;
   }
-  for (const std::size_t call : calls) tokens[call].text = own_name(tokens[call].text);
-  return !calls.empty();
+  return any;
 }
 
 std::string extended_product_functions() {

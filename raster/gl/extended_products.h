@@ -10,7 +10,7 @@ namespace twinshade::gl {
 
 // Mesa takes the 64 bits of a product by 1 for the other factor's 32, crashes where a factor has all bits set, and
 // loses the high word where both are constants. So the calls go to functions of our own, whose factors it cannot know.
-// True if there are any; not where the shader has a function or variable of that name.
+// True if there are any. Functions of the author's by those names have other ones already (author_names.h).
 bool redirect_extended_products(std::vector<Token>& tokens);
 
 // Those functions, to stand before the text, and the uniform that hides factors: always 0.

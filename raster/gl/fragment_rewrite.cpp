@@ -6,7 +6,6 @@
 #include <set>
 
 #include "base/error.h"
-#include "cpu_shaders/rewrite/new_keywords.h"
 #include "cpu_shaders/source/preprocess.h"
 #include "raster/gl/author_names.h"
 #include "raster/gl/constant_integer.h"
@@ -99,7 +98,6 @@ class Rewriter {
   }
 
   void scan_words() {
-    const std::map<std::string, std::size_t> own = declared_functions(tokens_);
     for (std::size_t i = 0; i < tokens_.size(); ++i) {
       const std::string& text = tokens_[i].text;
       if (tokens_[i].kind != Token::Kind::name) continue;
@@ -110,10 +108,7 @@ class Rewriter {
       result_.uses_fragment_position |= is_any(text, {"gl_FragCoord", "gl_FrontFacing"});
       if (text == "gl_ClipDistance" || text == "gl_CullDistance")
         fail(i, text + " is not supported: no clip planes are drawn with");
-      // Where the author has a function of that name, it hides the built-in one.
-      const auto declared = own.find(text);
-      const bool is_own = declared != own.end() && declared->second <= i;
-      if (is_own || i + 1 >= tokens_.size() || tokens_[i + 1].text != "(") continue;
+      if (i + 1 >= tokens_.size() || tokens_[i + 1].text != "(") continue;
       if (is_any(text, {"dFdx", "dFdy", "fwidth", "dFdxFine", "dFdyFine", "fwidthFine", "dFdxCoarse", "dFdyCoarse",
                         "fwidthCoarse"}) &&
           result_.derivative.empty())

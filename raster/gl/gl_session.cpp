@@ -25,7 +25,7 @@ std::string leaf_type(Scalar scalar, std::uint32_t components) {
 
 // The first line of a driver's log that reports an error, with the author's file and line.
 std::string first_error(const ShaderSource& source, const std::string& log) {
-  std::istringstream lines(map_driver_log(source, log));
+  std::istringstream lines(author_name(map_driver_log(source, log)));
   std::string first;
   for (std::string line; std::getline(lines, line);) {
     if (line.find("error") != std::string::npos) return line;

@@ -132,6 +132,35 @@ TEST_CASE("functions may have names that became built-in functions after the sha
   for (std::uint32_t k = 0; k < 4; ++k) CHECK(value_at(rows.outputs.at(0), 0, k) == expected[k]);
 }
 
+TEST_CASE("functions hide the built-in ones of their names from their declaration on") {
+  const std::string text =
+      "#define OWN(T, f) T f(T v) { return v + T(100); }\n#define CALL(f, v) f(v)\n"
+      "in float x;\nlayout(location = 0) out vec4 a; layout(location = 1) out vec4 b; layout(location = 2) out vec4 "
+      "c;\n"
+      "float early(float v) { return abs(v) + max(v, 2); }\n"
+      "float abs(float v) { return v + 100.0; }\n"  // as the built-in one
+      "OWN(float, sign)\n"
+      "float max(float v, int n);\n"
+      "float bitfieldInsert(float v, int b, int k, int n) { return v + 100.0; }\n"
+      "float dot(vec2 u, float n) { return n; }\nvec2 dot(vec2 u, vec2 v) { return u * v; }\n"
+      "int pow(int v, int n) { return n == 0 ? 1 : n == 1 ? v : v * v; }\n"
+      // of the text around the shader's
+      "float texelFetch(float v) { return v; }\nfloat min(float v) { return v; }\n"
+      "float uintBitsToFloat(float v) { return v; }\nfloat floatBitsToUint(float v) { return v; }\n"
+      "float textureSize(float v) { return v; }\nfloat average(float u, float v) { return (u + v) * 0.5; }\n"
+      "struct S { float length; };\nfloat length(float v[2]) { return float(v.length()) + 40.0; }\n"
+      "void main() {\n"
+      "  a = vec4(early(x), abs(x), CALL(sign, x), sign(3));\n"
+      "  b = vec4(max(int(x), 1), bitfieldInsert(int(x), 1, 2, 3), dot(vec2(x, 2), vec2(3, 4)));\n"
+      "  float distance = pow(3, 2) + texelFetch(min(uintBitsToFloat(floatBitsToUint(textureSize(x)))));\n"
+      "  c = vec4(distance, average(1, 2), length(float[2](x, x)), S(x).length);\n}\n"
+      "float max(float v, int n) { return v + 1000.0; }\n";
+  const EvaluatedRows rows = same_everywhere(fragment(text), {1, {floats("x", "float", {-1})}, {}, {}, {}});
+  const std::vector<std::vector<double>> expected = {{3, 99, 99, 103}, {999, 99, -3, 8}, {8, 1.5, 42, -1}};
+  for (std::size_t output = 0; output < 3; ++output)
+    for (std::uint32_t k = 0; k < 4; ++k) CHECK(value_at(rows.outputs.at(output), 0, k) == expected[output][k]);
+}
+
 TEST_CASE("uniforms that differ by row are what each row sees") {
   ValueTable table{5, {floats("x", "float", {1, 2, 3, 4, 5})}, {floats("k", "float", {10, 20, 10, 20, 30})}, {}, {}};
   const EvaluatedRows rows =

@@ -197,20 +197,26 @@ TEST_CASE("names that later versions made keywords are renamed in older shaders"
                  "precise float a"));
 }
 
-TEST_CASE("functions that later versions made built-in ones are the author's in older shaders") {
+TEST_CASE("functions that hide built-in ones are renamed, in every version, and nothing else of their calls is") {
   const std::string text =
       "int bitCount(float x) { return 7; }\nfloat interpolateAtCentroid(float x) { return x; }\n"
       "float dFdxFine(float x);\nuniform float findMSB = 1.0;\nout float c;\n"
       "void main() { c = interpolateAtCentroid(float(bitCount(3))) + dFdxFine(findMSB); }\n"
       "float dFdxFine(float x) { return x; }\n";
-  const FragmentShader older = globals("#version 330\n" + text);
-  CHECK(contains(tokens_of(older.text), "int twinshade_name_bitCount ( float x )"));
-  CHECK(contains(tokens_of(older.text), "c = twinshade_name_interpolateAtCentroid ( float ( twinshade_name_bitCount"));
-  CHECK(older.derivative.empty());
-  // In a version that has them, the author's hide them.
-  const FragmentShader newer = globals(text);
-  CHECK(contains(tokens_of(newer.text), "c = interpolateAtCentroid ( float ( bitCount ( 3 ) ) ) + dFdxFine"));
-  CHECK(newer.derivative.empty());
+  for (const std::string version : {"#version 330\n", "", "#version 300 es\nprecision highp float;\n"}) {
+    const FragmentShader rewritten = globals(version + text);
+    CHECK(contains(tokens_of(rewritten.text), "int twinshade_name_bitCount ( float x )"));
+    CHECK(contains(tokens_of(rewritten.text),
+                   "c = twinshade_name_interpolateAtCentroid ( float ( twinshade_name_bitCount"));
+    CHECK(rewritten.derivative.empty());
+  }
+  // Before it is declared, the built-in one is called.
+  const FragmentShader before = globals(
+      "in float a;\nout float c;\nfloat f() { return dFdx(a); }\nfloat dFdx(float x) { return x; }\n"
+      "void main() { c = f() + dFdx(a); }\n");
+  CHECK(contains(tokens_of(before.text), "return dFdx ( a ) ;"));
+  CHECK(contains(tokens_of(before.text), "c = f ( ) + twinshade_name_dFdx ( a ) ;"));
+  CHECK(contains(before.derivative, ":3: dFdx"));
   CHECK(contains(rejection("in float a;\nfloat f() { return interpolateAtCentroid(a); }\n"
                            "float interpolateAtCentroid(float x) { return x; }\n" +
                            kMain),
@@ -231,11 +237,12 @@ TEST_CASE("products of 64 bits go through functions that hide their factors from
   CHECK(contains(tokens_of(result.text), "else twinshade_umulExtended ( 1u , h , h , l ) ;"));
   CHECK(varyings(call).extended_products);
   CHECK(!globals(kMain).extended_products);
-  // the author's own function
+  // the author's own function, and variable
   const FragmentShader own =
       globals("void umulExtended(float a, float b) {}\nvoid main() { umulExtended(1.0, 2.0); }\n");
   CHECK(!own.extended_products);
-  CHECK(contains(tokens_of(own.text), "{ umulExtended ( 1.0 , 2.0 ) ; }"));
+  CHECK(contains(tokens_of(own.text), "{ twinshade_name_umulExtended ( 1.0 , 2.0 ) ; }"));
+  CHECK(!globals("void main() { float umulExtended = 1.0; }\n").extended_products);
 }
 
 TEST_CASE("what the rewritten shader does is known") {

@@ -96,10 +96,7 @@ bool is_further(const std::string& complaint, const std::string& other) {
          std::stoll(a[2]) > std::stoll(b[2]);
 }
 
-// GLSL ES 300 has no SPIR-V: it is checked as what it says it is, then translated as ES 310. Desktop GLSL older than
-// 450 is read as 450 where its version lacks something that it uses: `precise`, say, which means the same in all (but
-// `sample` and `buffer` are names there, not keywords).
-std::vector<std::uint32_t> compile_any_version(const ShaderSource& source) {
+void refuse_other_versions(const ShaderSource& source) {
   const int latest = source.es ? 320 : 460;
   if (source.version > latest)
     throw UserError(source.files.at(0) + ":1: GLSL " + (source.es ? "ES " : "") + std::to_string(source.version) +
@@ -107,11 +104,15 @@ std::vector<std::uint32_t> compile_any_version(const ShaderSource& source) {
   if (source.version < (source.es ? 300 : 330))
     throw UserError(source.files.at(0) + ":1: GLSL " + (source.es ? "ES " : "") + std::to_string(source.version) +
                     " is not supported: write #version " + (source.es ? "300 es" : "330 or later"));
+}
+
+// GLSL ES 300 has no SPIR-V: it is checked as what it says it is, then translated as ES 310. Desktop GLSL older than
+// 450 is read as 450 where its version lacks something that it uses: `precise`, say, which means the same in all (but
+// `sample` and `buffer` are names there, not keywords).
+std::vector<std::uint32_t> compile_any_version(const ShaderSource& source) {
   if (source.es && source.version == 300) {
     compile(source, 300, false);
-    ShaderSource with_names = source;
-    with_names.text = with_free_names_of_es_300(source);
-    return compile(with_names, 310, true);
+    return compile(source, 310, true);
   }
   std::string complaint;
   for (const int version : glslang_versions(source)) {
@@ -142,8 +143,9 @@ std::vector<std::uint32_t> compile_with_constants(const ShaderSource& source) {
 }
 
 std::vector<std::uint32_t> compile_with_free_names(const ShaderSource& source) {
+  refuse_other_versions(source);
   ShaderSource free = source;
-  free.text = with_free_functions(source);
+  free.text = source.es ? with_free_names_of_es(source) : with_free_functions(source);
   try {
     std::vector<std::uint32_t> words = compile_with_constants(free);
     drop_endings(words);

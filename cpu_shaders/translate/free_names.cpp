@@ -6,6 +6,7 @@
 #include <array>
 #include <regex>
 #include <string_view>
+#include <vector>
 
 #include "cpu_shaders/source/find_word.h"
 #include "cpu_shaders/source/hidden_built_ins.h"
@@ -16,6 +17,28 @@ namespace twinshade {
 namespace {
 
 constexpr std::string_view kEnding = "_twinshade_name";
+
+// Of extensions that have no GLSL ES; glslang knows them in every version.
+constexpr std::string_view kOfNoEs =
+    "absoluteDifference addSaturate average averageRounded controlBarrier countLeadingZeros countTrailingZeros "
+    "multiply32x16 subtractSaturate texelGradFetch texelGradFetchOffset texelProjFetch texelProjFetchOffset "
+    "texelProjGradFetch";
+
+constexpr std::string_view kNotOfEs300 =
+    "atomicAdd atomicAnd atomicCompSwap atomicCounter atomicCounterDecrement atomicCounterIncrement atomicExchange "
+    "atomicMax atomicMin atomicOr atomicXor bitCount bitfieldExtract bitfieldInsert bitfieldReverse buffer findLSB "
+    "findMSB fma frexp imageAtomicAdd imageAtomicAnd imageAtomicCompSwap imageAtomicExchange imageAtomicMax "
+    "imageAtomicMin imageAtomicOr imageAtomicXor imageLoad imageSize imageStore imulExtended ldexp memoryBarrier "
+    "memoryBarrierAtomicCounter memoryBarrierBuffer memoryBarrierImage packSnorm4x8 packUnorm4x8 precise "
+    "textureGather textureGatherOffset textureGatherOffsets uaddCarry umulExtended unpackSnorm4x8 unpackUnorm4x8 "
+    "usubBorrow";
+
+std::vector<std::string_view> names_free_in_es(int version) {
+  std::vector<std::string_view> names = pieces_of(kOfNoEs);
+  const std::vector<std::string_view> later = pieces_of(kNotOfEs300);
+  if (version < 310) names.insert(names.end(), later.begin(), later.end());
+  return names;
+}
 
 // Where the ending next stands as one, from `from` on.
 std::size_t find_ending(std::string_view text, std::size_t from) {
@@ -47,45 +70,26 @@ bool may_hide_built_ins(std::string text) {
 
 }  // namespace
 
-std::string with_free_names_of_es_300(const ShaderSource& source) {
-  constexpr std::array kNames = {"bitCount",
-                                 "bitfieldExtract",
-                                 "bitfieldInsert",
-                                 "bitfieldReverse",
-                                 "findLSB",
-                                 "findMSB",
-                                 "frexp",
-                                 "ldexp",
-                                 "fma",
-                                 "imulExtended",
-                                 "umulExtended",
-                                 "uaddCarry",
-                                 "usubBorrow",
-                                 "packUnorm4x8",
-                                 "packSnorm4x8",
-                                 "unpackUnorm4x8",
-                                 "unpackSnorm4x8",
-                                 "textureGather",
-                                 "textureGatherOffset",
-                                 "buffer",
-                                 "precise"};
-  const auto has = [](const std::string& text) {
-    return [&text](const char* name) { return text.find(name) != std::string::npos; };
+std::string with_free_names_of_es(const ShaderSource& source) {
+  const std::vector<std::string_view> candidates = names_free_in_es(source.version);
+  const auto stands_in = [](std::string_view text) {
+    return [text](std::string_view name) { return find_word(text, name) != text.npos; };
   };
-  if (std::none_of(kNames.begin(), kNames.end(), has(source.text))) return source.text;
+  if (std::none_of(candidates.begin(), candidates.end(), stands_in(source.text))) return source.text;
   const std::string text = preprocess(source);
   constexpr std::array kMakePreciseAKeyword = {"_gpu_shader5", "GL_ANDROID_extension_pack_es31a"};  // extensions
-  const bool precise_is_keyword = std::any_of(kMakePreciseAKeyword.begin(), kMakePreciseAKeyword.end(), has(text));
+  const bool precise_is_keyword = std::any_of(kMakePreciseAKeyword.begin(), kMakePreciseAKeyword.end(),
+                                              [&](const char* extension) { return text.find(extension) != text.npos; });
   std::string defines;
-  for (const std::string name : kNames)
-    if (has(text)(name.c_str()) && !(name == "precise" && precise_is_keyword))
-      defines += "#define " + name + " " + name + std::string(kEnding) + "\n";
+  for (const std::string_view name : candidates)
+    if (stands_in(text)(name) && !(name == "precise" && precise_is_keyword))
+      defines.append("#define ").append(name).append(" ").append(name).append(kEnding).append("\n");
   const std::size_t version_end = text.find('\n') + 1;
   return text.substr(0, version_end) + defines + text.substr(version_end);
 }
 
 std::string with_free_functions(const ShaderSource& source) {
-  if (source.es || !may_hide_built_ins(source.text)) return source.text;
+  if (!may_hide_built_ins(source.text)) return source.text;
   const std::string original = preprocess(source);
   std::string text = original;
   const std::vector<std::string_view> pieces = pieces_of(original);

@@ -10,9 +10,10 @@
 
 namespace twinshade {
 
-// The text of a shader in GLSL ES 300 for reading it as 310: what that takes for functions and keywords of its own is
-// free in 300. Macros that the author calls so are expanded before.
-std::string with_free_names_of_es_300(const ShaderSource& source);
+// The text of a shader in GLSL ES with an ending at each name that glslang takes for its own and that the version
+// leaves free: functions of extensions, and for ES 300, which is translated as 310, what that made functions and
+// keywords. Macros that the author calls so are expanded before.
+std::string with_free_names_of_es(const ShaderSource& source);
 
 // The text of a shader in desktop GLSL with an ending at each name of a function that hides built-in ones
 // (hidden_built_ins.h): preprocessed then, else as it is.

@@ -44,6 +44,19 @@ TEST_CASE("functions that hide built-in ones get an ending, however they are dec
     CHECK_FALSE_MESSAGE(gets_endings(kHead + text + "\nvoid main() { c = abs(x); }\n"), text);
 }
 
+TEST_CASE("names that glslang knows and the version of GLSL ES does not are the author's, of functions and variables") {
+  for (const std::string version : {"300 es", "310 es", "320 es"})
+    for (const std::string use : {"float average(vec3 v) { return v.x; }\nvoid main() { c = average(vec3(x)); }\n",
+                                  "uniform float average;\nvoid main() { c = x * average; }\n"})
+      CHECK(refusal_for("#version " + version + "\nprecision highp float; in float x;\n" +
+                        "layout(location = 0) out float c;\n" + use) == "");
+  const std::string own =
+      "\nprecision highp float; in float x; layout(location = 0) out float c;\n"
+      "float imageLoad(float v) { return v; }\nvoid main() { c = imageLoad(x); }\n";
+  CHECK(refusal_for("#version 300 es" + own) == "");
+  CHECK(refusal_for("#version 310 es" + own).find("t.frag:3: 'imageLoad'") == 0);
+}
+
 TEST_CASE("translated code and reflection have the author's names of functions that hide built-in ones") {
   const std::string translated =
       translate(named_t("#version 450\nin float x; uniform Block { float roof; } b; struct S { float floor; };\n"

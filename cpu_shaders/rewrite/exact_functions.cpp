@@ -143,25 +143,18 @@ bool ExactFunctions::is_written_out(std::string_view builtin) {
   return builtin == "sqrt" || builtin == "min" || builtin == "max" || builtin == "clamp";
 }
 
-// Who refuses derivatives names the first word that is one: the parameter is, at the author's line.
-std::string ExactFunctions::derivative(const std::string& builtin, const GlslType& type, const std::string& line) {
+std::string ExactFunctions::derivative(const std::string& builtin, const GlslType& type) {
   files_.insert("operators");
   const std::string name = "exact_" + builtin, kind = builtin.substr(std::string_view("fwidth").size());
-  const std::string begin = type_text(type) + " " + name + "(" + type_text(type) + "\n";
-  const bool is_there = std::any_of(derivatives_.begin(), derivatives_.end(),
-                                    [&](const std::string& function) { return function.starts_with(begin); });
-  if (!is_there)
-    derivatives_.push_back(begin + line + "\n" + builtin + "\n#line 1 \"" + kExactFunctions +
-                           "\"\n) { return exact_add(abs(dFdx" + kind + "(" + builtin + ")), abs(dFdy" + kind + "(" +
-                           builtin + "))); }");
+  generated_.insert(type_text(type) + " " + name + "(" + type_text(type) + " a) { return exact_add(abs(dFdx" + kind +
+                    "(a)), abs(dFdy" + kind + "(a))); }");
   return name;
 }
 
-std::string ExactFunctions::function(std::string_view builtin, const std::vector<GlslType>& arguments,
-                                     const std::string& line) {
+std::string ExactFunctions::function(std::string_view builtin, const std::vector<GlslType>& arguments) {
   if (written_out_)
     return is_written_out(builtin) ? written_out("written_" + std::string(builtin), arguments) : std::string();
-  if (builtin.starts_with("fwidth")) return derivative(std::string(builtin), arguments.at(0), line);
+  if (builtin.starts_with("fwidth")) return derivative(std::string(builtin), arguments.at(0));
   if (builtin == "inversesqrt" || builtin == "radians" || builtin == "degrees" || builtin == "fma") {
     files_.insert("operators");
     if (builtin == "inversesqrt") files_.insert("rounding");
@@ -247,7 +240,6 @@ std::string ExactFunctions::text(std::vector<std::string>& files) const {
     if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
   std::string text = prologue.text + "\n";
   for (const std::string& function : generated_) text += function + "\n";
-  for (const std::string& function : derivatives_) text += function + "\n";
   for (const std::string& function : generated_matrices_) text += function + "\n";
   return text;
 }

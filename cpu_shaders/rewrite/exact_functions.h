@@ -21,8 +21,7 @@ class ExactFunctions {
   static bool is_written_out(std::string_view builtin);
 
   // Name to call instead of a built-in function; empty where there is none. Argument types: after conversion to float.
-  // line: the #line of the call.
-  std::string function(std::string_view builtin, const std::vector<GlslType>& arguments, const std::string& line);
+  std::string function(std::string_view builtin, const std::vector<GlslType>& arguments);
   // Name to call instead of an operator: "+" gives exact_add; written out, written_add.
   std::string arithmetic(std::string_view op, const GlslType& left, const GlslType& right);
   // x op= y as a call whose first argument is inout, where x may not be written twice. postfix: gives the old value.
@@ -43,12 +42,11 @@ class ExactFunctions {
 
  private:
   std::string written_out(const std::string& name, const std::vector<GlslType>& arguments);
-  std::string derivative(const std::string& builtin, const GlslType& type, const std::string& line);
+  std::string derivative(const std::string& builtin, const GlslType& type);
 
   bool written_out_;
   std::set<std::string> files_;
   std::set<std::string> generated_;
-  std::vector<std::string> derivatives_;      // in the order of their first calls
   std::set<std::string> generated_matrices_;  // call functions of generated_
 };
 

@@ -343,9 +343,7 @@ class MakeExact : public Listener {
       if (type_text(arguments.back()).empty()) return varies;
     }
     if (arguments.empty()) return varies;
-    const std::string line =
-        "#line " + std::to_string(e.line) + " \"" + list_.files[static_cast<std::size_t>(e.file)] + "\"";
-    const std::string name = functions_.function(e.text, arguments, line);
+    const std::string name = functions_.function(e.text, arguments);
     if (name.empty()) return varies;
     for (const ExpressionPtr& argument : e.operands) to_float(*argument, known);
     if (one_of(e.text, {"min", "max", "clamp"}) && !is_known(*e.operands[0]) && !is_known(*e.operands[1]))
@@ -387,6 +385,11 @@ class MakeExact : public Listener {
     }
     if (is_diagonal(e)) {
       uses_zero_ = true;
+      if (const Expression& one = *e.operands[0]; one.type.base == Base::boolean) {  // no parameter converts it
+        edits_.before(one.outer_first, "float(");
+        edits_.behind(one.outer_last - 1, ")");
+        unseen(one, scalar_type(Base::float32));
+      }
       edits_.replace(e.at, functions_.diagonal(e.type));
       edits_.behind(e.operands[0]->outer_last - 1, std::string(", ") + kExactZero);
       return true;

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "cpu_shaders/rewrite/exact_functions.h"
 #include "cpu_shaders/source/preprocess.h"
 #include "raster/gl/author_names.h"
 #include "raster/gl/constant_integer.h"
@@ -109,13 +110,24 @@ class Rewriter {
       if (text == "gl_ClipDistance" || text == "gl_CullDistance")
         fail(i, text + " is not supported: no clip planes are drawn with");
       if (i + 1 >= tokens_.size() || tokens_[i + 1].text != "(") continue;
-      if (is_any(text, {"dFdx", "dFdy", "fwidth", "dFdxFine", "dFdyFine", "fwidthFine", "dFdxCoarse", "dFdyCoarse",
-                        "fwidthCoarse"}) &&
-          result_.derivative.empty())
-        result_.derivative = position(source_, tokens_[i]) + text;
+      note_derivative(tokens_[i]);
       if (text.rfind("interpolateAt", 0) == 0 && style_ != InputStyle::varyings)
         fail(i, text + " needs native attributes: exact ones are evaluated at pixel centres only");
     }
+  }
+
+  // The first that the author takes. Exact functions stand before the shader: theirs are taken by who calls them.
+  void note_derivative(const Token& token) {
+    const std::string where = position(source_, token), exact = "exact_";
+    const bool within_exact = where.rfind(std::string(lint_detail::kExactFunctions) + ":", 0) == 0;
+    const bool calls_exact = exact_derivative_ && !within_exact && token.text.rfind(exact, 0) == 0;
+    const std::string called = calls_exact ? token.text.substr(exact.size()) : token.text;
+    if (!is_any(called, {"dFdx", "dFdy", "fwidth", "dFdxFine", "dFdyFine", "fwidthFine", "dFdxCoarse", "dFdyCoarse",
+                         "fwidthCoarse"}))
+      return;
+    if (!result_.derivative.empty() && (within_exact || !exact_derivative_)) return;
+    result_.derivative = where + called;
+    exact_derivative_ = within_exact;
   }
 
   void rename_words() {
@@ -360,6 +372,7 @@ class Rewriter {
   std::vector<Token>& tokens_;
   std::map<std::string, int> count_;
   std::map<std::string, long> constants_;
+  bool exact_derivative_ = false;  // the derivative that was noted is taken within an exact function
   FragmentShader result_;
 };
 

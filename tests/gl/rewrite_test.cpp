@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "cpu_shaders/rewrite/make_exact.h"
 #include "cpu_shaders/source/preprocess.h"
 #include "raster/gl/author_names.h"
 #include "raster/gl/constant_integer.h"
@@ -226,6 +227,19 @@ TEST_CASE("functions that hide built-in ones are renamed, in every version, and 
             .derivative.empty());
   CHECK(initialized_uniforms(shader("#version 330\nuniform float bitCount = 1.0;\n")) ==
         std::vector<std::string>{"bitCount"});
+}
+
+TEST_CASE("a derivative of an exact function is the author's, at the line of the call") {
+  const std::string text =
+      "in vec2 a;\nout vec2 c;\nvoid main() {\n  c = a * 0.5;\n  c += fwidthFine(a);\n  c += dFdx(a) + fwidth(a);\n}\n";
+  const auto derivative = [](const std::string& version, const std::string& glsl) {
+    return rewrite_fragment_shader(make_exact(shader(version + glsl)).source, InputStyle::rows).derivative;
+  };
+  CHECK(derivative("", text) == "test.frag:5: fwidthFine");
+  CHECK(derivative("#version 300 es\nprecision highp float;\n",
+                   "in vec2 a;\nout vec2 c;\nvoid main() {\n  c = fwidth(a) * dFdx(a);\n}\n") == "test.frag:6: fwidth");
+  CHECK(derivative("", "in vec2 a;\nout vec2 c;\nvoid main() {\n  c = dFdy(a); c.x += fwidth(a.x);\n}\n") ==
+        "test.frag:4: dFdy");
 }
 
 TEST_CASE("products of 64 bits go through functions that hide their factors from Mesa") {

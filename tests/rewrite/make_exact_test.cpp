@@ -144,6 +144,7 @@ TEST_CASE("no value is known to compilers, so that none can be computed to be ze
   CHECK(body_of("Light l = Light(a, k);") == "Lightl=Light(a,exact_unseen(k,exact_zero));");
   // the rest of a matrix
   CHECK(body_of("mat3 x = mat3(2.0);") == "mat3x=exact_diagonal_3(exact_unseen(2.0,exact_zero),exact_zero);");
+  CHECK(body_of("mat2 x = mat2(k > 0);") == "mat2x=exact_diagonal_2(exact_unseen(float(k>0),exact_zero),exact_zero);");
   CHECK(body_of("mat4 x = mat4(m);") == "mat4x=exact_unseen(mat4(m),exact_zero);");
   CHECK(body_of("mat2x3 x = mat2x3(a.x);") == "mat2x3x=exact_unseen(mat2x3(a.x),exact_zero);");
   CHECK(body_of("mat2 x = mat2(a.xy, b.xy);") == "mat2x=mat2(a.xy,b.xy);");
@@ -282,6 +283,8 @@ TEST_CASE("whatever arithmetic GLSL allows is brought into the exact dialect") {
            "color.xyz = m * a; color = m4 * vec4(a, 1.0); color.xyz += n * a.xy; color.xy += a * n;",
            "mat3 p = m * m; p *= 2.0; p += m; p = p / 2.0 - m; p = matrixCompMult(p, m); color.xyz = p[0];",
            "mat3 p = inverse(m) * determinant(m); color.xyz = p[k]; color.x += determinant(m4) + inverse(m4)[1].y;",
+           "mat2 p = mat2(k > 0); mat3 q = mat3((b.x < a.x)); color.xy = p * a.xy; color.xyz += q * a + "
+           "mat4(true)[1].x;",
            "mat3 p = outerProduct(a, b); mat3x2 q = transpose(n); color.xy = q * a; color.xyz += (n * q)[k];",
            "if (a.x * b.x > 0.5 && a.y + 1.0 != b.y) color.x = twice(a.x * 2.0);",
            "for (float t = 0.0; t < 1.0; t += 0.25) color.x += t * a.x;",
@@ -381,18 +384,6 @@ TEST_CASE("functions that became built-in ones in later versions hide those") {
                                                "flat in uint v; out vec4 c;\nvoid main() { c = vec4(bitCount(v)); }\n",
                                                "t.frag");
   CHECK(make_exact(extended).renamed.empty());
-}
-
-TEST_CASE("a derivative that is written out is found at the author's line") {
-  const std::string text =
-      make_exact(shader_of("color = vec4(fwidth(a), 1.0);\ncolor.x += fwidth(a.x) + fwidthFine(a).x + fwidth(b).x;"))
-          .source.text;
-  std::string plain = text;
-  std::erase(plain, '\n');
-  CHECK(plain.find("vec3 exact_fwidth(vec3#line 10 \"sample.frag\"fwidth#line") != std::string::npos);
-  CHECK(plain.find("float exact_fwidth(float#line 11 \"sample.frag\"fwidth#line") != std::string::npos);
-  CHECK(plain.find("vec3 exact_fwidthFine(vec3#line 11 \"sample.frag\"fwidthFine#line") != std::string::npos);
-  CHECK(plain.find("vec3 exact_fwidth(vec3#line", plain.find("vec3 exact_fwidth(vec3#line") + 1) == std::string::npos);
 }
 
 TEST_CASE("what a later version than 4.50 allows is still allowed") {

@@ -135,7 +135,8 @@ void Parser::read() {
   while (peek().kind != Token::Kind::end) external_declaration();
 }
 
-// A type name starts a declaration unless it is a constructor: vec3(...), float[2](...), Light(...).
+// A type name starts a declaration unless it is a constructor: vec3(...), float[2](...), Light(...). `int;` declares
+// nothing, and is one all the same.
 bool Parser::at_declaration() {
   if (at_qualifier() || is("struct") || is("precision")) return true;
   if (!is_type(peek())) return false;
@@ -144,7 +145,7 @@ bool Parser::at_declaration() {
     while (!is("]", ahead) && peek(ahead).kind != Token::Kind::end) ++ahead;
     ++ahead;
   }
-  return peek(ahead).kind == Token::Kind::name;
+  return peek(ahead).kind == Token::Kind::name || is(";", 1);
 }
 
 GlslType Parser::type_specifier() {

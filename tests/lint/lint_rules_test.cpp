@@ -419,6 +419,16 @@ TEST_CASE("attributes of statements are passed over") {
             "attributes.frag"))) == "precise");
 }
 
+TEST_CASE("declarations that declare nothing are passed over within functions too") {
+  const std::string text =
+      "int; const float; struct S { float x; }; in float a; out float c;\nvoid main() {\n"
+      "  int; highp float; const vec2; S; struct T { int i; }; T;\n"
+      "  for (int;;) { mat2; break; }\n  if (a > 1.0) float;\n  c = a * a;\n}\n";
+  const std::vector<LintFinding> findings = lint(resolve_shader("empty", text, "empty.frag"));
+  REQUIRE(findings.size() == 1);
+  CHECK(findings[0].line == 6);
+}
+
 TEST_CASE("the parser keeps its place through everything that GLSL allows") {
   // The last statements break rules: they are found where the parser came this far.
   const std::string text =

@@ -1,10 +1,12 @@
 #include "evaluate/evaluator.h"
 
+#include <algorithm>
 #include <map>
 
 #include "base/error.h"
 #include "base/parallel.h"
 #include "cpu_shaders/machine.h"
+#include "cpu_shaders/rewrite/probe.h"
 #include "evaluate/bind_table.h"
 #include "evaluate/cpu_rows.h"
 #include "evaluate/prepared_shaders.h"
@@ -27,6 +29,12 @@ std::vector<Values> empty_outputs(const Reflection& reflection, std::size_t rows
   if (reflection.writes_depth) outputs.push_back({"gl_FragDepth", {}, {}, {}});
   for (Values& values : outputs) values.bits.resize(rows * values.type.components());
   return outputs;
+}
+
+std::size_t own_outputs(const Reflection& reflection) {
+  return std::size_t(
+      std::count_if(reflection.outputs.begin(), reflection.outputs.end(),
+                    [](const ReflectedVariable& v) { return v.name != kProbeValue && v.name != kProbePlace; }));
 }
 
 }  // namespace
@@ -124,9 +132,9 @@ const Reflection& Evaluator::reflection(const ShaderSource& shader) {
 
 EvaluatedRows Evaluator::run(const ShaderSource& shader, const ValueTable& table, const EvaluationTarget& target) {
   const Reflection& shape = reflection(shader);
-  if (shape.outputs.size() > kMostOutputs)
+  if (const std::size_t count = own_outputs(shape); count > kMostOutputs)
     throw UserError((shader.files.empty() ? shader.name : shader.files[0]) + ": the shader has " +
-                    std::to_string(shape.outputs.size()) + " outputs, but at most " + std::to_string(kMostOutputs) +
+                    std::to_string(count) + " outputs, but at most " + std::to_string(kMostOutputs) +
                     " can be evaluated: split it");
   EvaluatedRows result;
   result.outputs = empty_outputs(shape, table.rows);

@@ -40,7 +40,8 @@ struct EvaluatorOptions {
   bool written_out = false;        // gpu: as GlEnvironment::written_out
 };
 
-// More outputs than OpenGL has colour attachments are refused on every backend.
+// More outputs than OpenGL has colour attachments are refused on every backend. Those of probes do not count: no row's
+// outputs are attachments.
 inline constexpr std::size_t kMostOutputs = 8;
 
 class Evaluator {

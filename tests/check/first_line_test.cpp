@@ -104,6 +104,15 @@ TEST_CASE("values keep their type") {
   CHECK(found.difference->b[0] == std::bit_cast<std::uint32_t>(-0x1p-40f));
 }
 
+TEST_CASE("a shader of as many outputs as there can be is searched too") {
+  std::string declared, stored;
+  for (int k = 1; k < 8; ++k) {
+    declared += "out vec4 more" + std::to_string(k) + "; ";
+    stored += "  more" + std::to_string(k) + " = a.xyzx;\n";
+  }
+  check_first(declared + "\nvoid main() {\n" + stored + "  c = vec4(a.x * a.y * a.z);\n}\n", 11, "c");
+}
+
 TEST_CASE("where no value differs, the note says so, and whether all could be looked at") {
   CHECK(first_line_of("void main() { c = vec4(a, 1.0); }\n").note.find("several statements") != std::string::npos);
   CHECK(first_line_of("int k; int next() { return k++; }\n"

@@ -18,6 +18,7 @@
 #include "cpu_shaders/source/find_word.h"
 #include "cpu_shaders/source/line_names.h"
 #include "cpu_shaders/source/preprocess.h"
+#include "cpu_shaders/source/vulkan_layouts.h"
 
 namespace twinshade {
 namespace {
@@ -38,11 +39,14 @@ struct File {
 // "builtin:driver" among the include folders is shaders/driver in the binary.
 constexpr std::string_view kBuiltinFolder = "builtin:";
 
+// With ends of lines and white space that glslang takes for them: it has no form feeds and vertical tabs.
 std::string unix_lines(std::string text) {
   if (text.compare(0, 3, "\xef\xbb\xbf") == 0) text.erase(0, 3);
   std::string result;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] != '\r')
+    if (text[i] == '\f' || text[i] == '\v')
+      result += ' ';
+    else if (text[i] != '\r')
       result += text[i];
     else if (i + 1 == text.size() || text[i + 1] != '\n')
       result += '\n';
@@ -114,7 +118,7 @@ class Resolver {
     const int outer_depth = conditional_depth_;
     const std::string index = std::to_string(files_.size() - 1);
     line_directive(1, file.shown);
-    for (const SourceLine& line : scan_lines(file.text)) {
+    for (const SourceLine& line : scan_lines(without_vulkan_layouts(file.text))) {
       const std::string where = file.shown + ":" + std::to_string(line.number) + ": ";
       if (line.directive == "if" || line.directive == "ifdef" || line.directive == "ifndef") ++conditional_depth_;
       if (line.directive == "endif") --conditional_depth_;
@@ -124,7 +128,7 @@ class Resolver {
       if (line.directive == "include") {
         include(file, line, where);
       } else if (line.directive == "version") {
-        version(line, where, main);
+        if (is_read()) version(line, where, main);
         blank(line);
       } else if (line.directive == "extension" && plain_extension(line.arguments).empty()) {
         blank(line);
@@ -136,7 +140,8 @@ class Resolver {
         body_ += "#extension " + plain_extension(line.arguments) + ' ';
         blank(line);
       } else {
-        body_ += with_file_index(line.text, index) + '\n';
+        body_ += with_file_index(line, index) + '\n';
+        if (line.directive == "line" && names_string(line.arguments)) file_is_numbered_ = true;
       }
       code_seen_ = code_seen_ || line.code.find_first_not_of(" \t\v\f\n") != std::string::npos;
     }
@@ -154,13 +159,27 @@ class Resolver {
   }
 
  private:
-  // GLSL's __FILE__ is a number, glslang's the name that #line gives: the number is written out.
-  static std::string with_file_index(const std::string& text, const std::string& index) {
+  // Whether a #line gives a number to what __FILE__ is from there on.
+  static bool names_string(const std::string& arguments) {
+    return arguments.find_first_of(" \t") != arguments.npos && arguments.find('"') == arguments.npos;
+  }
+
+  // GLSL's __FILE__ is a number, glslang's the name that #line gives: the number is written out, but where the author
+  // gives one or only asks whether there is such a macro.
+  std::string with_file_index(const SourceLine& line, const std::string& index) const {
     constexpr std::string_view word = "__FILE__";
+    const std::string& text = line.text;
+    const bool is_asked_for = line.directive == "ifdef" || line.directive == "ifndef" || line.directive == "undef";
+    if (file_is_numbered_ || is_asked_for) return text;
     std::string result;
     std::size_t from = 0;
     for (std::size_t at = find_word(text, word); at != text.npos; at = find_word(text, word, from)) {
-      result += text.substr(from, at - from) + index;
+      std::size_t before = text.find_last_not_of(" \t(", at == 0 ? 0 : at - 1);
+      if (before == text.npos) before = 0;
+      constexpr std::string_view kDefined = "defined";
+      const bool is_defined =
+          before + 1 >= kDefined.size() && text.compare(before + 1 - kDefined.size(), kDefined.size(), kDefined) == 0;
+      result += text.substr(from, at - from) + (is_defined ? std::string(word) : index);
       from = at + word.size();
     }
     return result + text.substr(from);
@@ -179,21 +198,34 @@ class Resolver {
     return find_word(arguments, "GL_EXT_spirv_intrinsics") == 0 && find_word(arguments, "disable") == arguments.npos;
   }
 
+  // Extensions that GLSL 4.50 has all of, without a name that glslang knows.
+  static bool is_part_of_latest(const std::string& name) {
+    constexpr std::string_view kPart =
+        "GL_ARB_arrays_of_arrays GL_ARB_conservative_depth GL_AMD_conservative_depth GL_ARB_texture_query_levels "
+        "GL_ARB_shader_precision GL_ARB_ES2_compatibility GL_ARB_ES3_compatibility GL_ARB_ES3_1_compatibility "
+        "GL_EXT_texture_array";
+    return find_word(kPart, name.substr(0, name.find_first_of(" \t"))) != kPart.npos;
+  }
+
   // As glslang can bear it, empty where there is nothing to ask for: of `warn` it reads positions that it has not set,
-  // and `all : disable` takes the extension that our #line needs. What is left of `all` is what there is without it.
+  // and `all : disable` takes the extension that our #line needs; what it does not know it refuses to `require`. What
+  // is left of `all` is what there is without it.
   static std::string plain_extension(const std::string& arguments) {
     const std::size_t colon = arguments.find(':');
     if (replaced_extension(arguments) || colon == arguments.npos) return replaced_extension(arguments) ? "" : arguments;
     const std::string name = arguments.substr(0, colon);
+    const bool requires_one =
+        find_word(arguments, "require") > colon && find_word(arguments, "require") != arguments.npos;
     const bool warns = find_word(arguments, "warn") > colon && find_word(arguments, "warn") != arguments.npos;
     const bool disables = find_word(arguments, "disable") > colon && find_word(arguments, "disable") != arguments.npos;
     if (find_word(name, "all") == 0 && (warns || disables)) return "";
-    return warns ? name + ": enable" : arguments;
+    return warns || (requires_one && is_part_of_latest(name)) ? name + ": enable" : arguments;
   }
 
   static std::string quoted(const std::string& path) { return '"' + line_name(path) + '"'; }
 
   void line_directive(int next_line, const std::string& shown) {
+    file_is_numbered_ = false;
     body_ += "#line " + std::to_string(next_line) + " " + quoted(shown) + "\n";
   }
 
@@ -233,7 +265,20 @@ class Resolver {
       throw UserError(where + "#version " + line.arguments + ": the profile is core, compatibility or es");
     version_ = std::stoi(line.arguments.substr(0, digits));
     es_ = version_ == 100 || profile == "es";
+    refuse_other_versions(where);
     version_line_ = "#version " + line.arguments + "\n";
+  }
+
+  // Before the preprocessor is asked anything, which has no answers in other versions.
+  void refuse_other_versions(const std::string& where) const {
+    const std::vector<int> known =
+        es_ ? std::vector{300, 310, 320} : std::vector{330, 400, 410, 420, 430, 440, 450, 460};
+    if (std::find(known.begin(), known.end(), version_) != known.end()) return;
+    const std::string name = std::string("GLSL ") + (es_ ? "ES " : "") + std::to_string(version_);
+    const std::string least = es_ ? "300 es" : "330", latest = es_ ? "320 es" : "460";
+    if (version_ < known.front())
+      throw UserError(where + name + " is not supported: write #version " + least + " or later");
+    throw UserError(where + name + " is not known: write #version " + least + " to " + latest);
   }
 
   void include(const File& from, const SourceLine& line, const std::string& where) {
@@ -286,7 +331,7 @@ class Resolver {
   std::vector<std::string> identities_, files_;
   std::string version_line_, prologue_, body_;
   int version_ = 450, depth_ = 0, conditional_depth_ = 0, questions_ = 0;
-  bool es_ = false, code_seen_ = false;
+  bool es_ = false, code_seen_ = false, file_is_numbered_ = false;
 };
 
 }  // namespace

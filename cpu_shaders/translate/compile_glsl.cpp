@@ -13,6 +13,7 @@
 #include "cpu_shaders/source/glslang_trial.h"
 #include "cpu_shaders/source/preprocess.h"
 #include "cpu_shaders/translate/constant_initializers.h"
+#include "cpu_shaders/translate/extra_semicolons.h"
 #include "cpu_shaders/translate/find_recursion.h"
 #include "cpu_shaders/translate/free_names.h"
 #include "cpu_shaders/translate/limits.h"
@@ -96,16 +97,6 @@ bool is_further(const std::string& complaint, const std::string& other) {
          std::stoll(a[2]) > std::stoll(b[2]);
 }
 
-void refuse_other_versions(const ShaderSource& source) {
-  const int latest = source.es ? 320 : 460;
-  if (source.version > latest)
-    throw UserError(source.files.at(0) + ":1: GLSL " + (source.es ? "ES " : "") + std::to_string(source.version) +
-                    " is not known: write #version " + (source.es ? "320 es" : "460") + " or earlier");
-  if (source.version < (source.es ? 300 : 330))
-    throw UserError(source.files.at(0) + ":1: GLSL " + (source.es ? "ES " : "") + std::to_string(source.version) +
-                    " is not supported: write #version " + (source.es ? "300 es" : "330 or later"));
-}
-
 // GLSL ES 300 has no SPIR-V: it is checked as what it says it is, then translated as ES 310. Desktop GLSL older than
 // 450 is read as 450 where its version lacks something that it uses: `precise`, say, which means the same in all (but
 // `sample` and `buffer` are names there, not keywords).
@@ -142,12 +133,24 @@ std::vector<std::uint32_t> compile_with_constants(const ShaderSource& source) {
   }
 }
 
+// Without empty declarations, where glslang refuses them.
+std::vector<std::uint32_t> compile_without_extra_semicolons(const ShaderSource& source) {
+  try {
+    return compile_with_constants(source);
+  } catch (const UserError& error) {
+    if (!is_about_extra_semicolon(error.what())) throw;
+  }
+  ShaderSource without = source;
+  without.text = without_extra_semicolons(preprocess(source));
+  return compile_with_constants(without);
+}
+
 std::vector<std::uint32_t> compile_with_free_names(const ShaderSource& source) {
-  refuse_other_versions(source);
   ShaderSource free = source;
   free.text = source.es ? with_free_names_of_es(source) : with_free_functions(source);
+  free.text = with_free_members(free);
   try {
-    std::vector<std::uint32_t> words = compile_with_constants(free);
+    std::vector<std::uint32_t> words = compile_without_extra_semicolons(free);
     drop_endings(words);
     return words;
   } catch (const UserError& error) {

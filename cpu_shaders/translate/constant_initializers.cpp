@@ -5,13 +5,14 @@
 #include <string_view>
 
 #include "cpu_shaders/source/find_word.h"
-#include "cpu_shaders/translate/glsl_pieces.h"
+#include "cpu_shaders/source/glsl_pieces.h"
 
 namespace twinshade {
 namespace {
 
 constexpr std::string_view kNotFolded =
-    "transpose inverse determinant matrixCompMult outerProduct fma ldexp frexp mix bitfieldExtract bitfieldInsert "
+    "sinh cosh tanh asinh acosh atanh transpose inverse determinant matrixCompMult outerProduct fma ldexp frexp mix "
+    "bitfieldExtract bitfieldInsert "
     "bitfieldReverse bitCount findLSB findMSB floatBitsToInt floatBitsToUint intBitsToFloat uintBitsToFloat "
     "packUnorm2x16 packSnorm2x16 packUnorm4x8 packSnorm4x8 packHalf2x16 unpackUnorm2x16 unpackSnorm2x16 "
     "unpackUnorm4x8 unpackSnorm4x8 unpackHalf2x16 packDouble2x32 unpackDouble2x32";

@@ -20,6 +20,9 @@ FunctionEmitter::FunctionEmitter(Emission& shared, const Instance& instance, boo
       regions_(Regions::find(shared.program, instance, direct_)),
       runs_in_double_(runs_in_double) {}
 
+// That C++ numbers at most, less what of the translation may follow on lines of its own.
+constexpr int kMostLine = 2147483647 - 1000000;
+
 void FunctionEmitter::position(std::uint32_t file, int line) {
   if (line == 0) return;
   const Position p = module_.position(file, line);
@@ -31,7 +34,8 @@ void FunctionEmitter::position(std::uint32_t file, int line) {
     if (text.find_first_not_of("{}; ") != std::string::npos)
       out_.line("// " + (p.file == last_file_ ? "" : p.file + ":") + std::to_string(p.line) + ": " + text);
   } else {
-    out_.raw("#line " + std::to_string(p.line) + " " + quoted(p.file));
+    // GLSL's #line takes what C++'s does not.
+    out_.raw("#line " + std::to_string(std::clamp(p.line, 1, kMostLine)) + " " + quoted(p.file));
   }
   last_file_ = p.file;
   last_line_ = p.line;

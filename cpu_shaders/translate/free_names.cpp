@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "cpu_shaders/source/find_word.h"
+#include "cpu_shaders/source/glsl_pieces.h"
 #include "cpu_shaders/source/hidden_built_ins.h"
 #include "cpu_shaders/source/preprocess.h"
-#include "cpu_shaders/translate/glsl_pieces.h"
 
 namespace twinshade {
 namespace {
@@ -68,6 +68,17 @@ bool may_hide_built_ins(std::string text) {
   return false;
 }
 
+// Whether a piece is the name `length`, of no function and no method.
+bool is_length(const std::vector<std::string_view>& pieces, std::size_t i) {
+  return pieces[i] == "length" && !(i + 1 < pieces.size() && pieces[i + 1] == "(");
+}
+
+bool reads_member_length(const std::vector<std::string_view>& pieces) {
+  for (std::size_t i = 1; i < pieces.size(); ++i)
+    if (pieces[i - 1] == "." && is_length(pieces, i)) return true;
+  return false;
+}
+
 }  // namespace
 
 std::string with_free_names_of_es(const ShaderSource& source) {
@@ -99,6 +110,19 @@ std::string with_free_functions(const ShaderSource& source) {
     const std::string_view name = pieces[*place];
     text.insert(std::size_t(name.data() - original.data()) + name.size(), kEnding);
   }
+  return text;
+}
+
+std::string with_free_members(const ShaderSource& source) {
+  std::string readable = source.text;
+  std::replace(readable.begin(), readable.end(), '#', ' ');  // directives count
+  if (find_word(readable, "length") == std::string::npos || !reads_member_length(pieces_of(readable)))
+    return source.text;
+  const std::string original = preprocess(source);
+  const std::vector<std::string_view> pieces = pieces_of(original);
+  std::string text = original;
+  for (std::size_t i = pieces.size(); i-- > 0;)
+    if (is_length(pieces, i)) text.insert(std::size_t(pieces[i].data() - original.data()) + pieces[i].size(), kEnding);
   return text;
 }
 

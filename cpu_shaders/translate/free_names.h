@@ -19,6 +19,10 @@ std::string with_free_names_of_es(const ShaderSource& source);
 // (hidden_built_ins.h): preprocessed then, else as it is.
 std::string with_free_functions(const ShaderSource& source);
 
+// The text of a shader with an ending at each variable and member called `length`, where a member is read that is:
+// glslang takes it for the method of arrays. Preprocessed then, else as it is.
+std::string with_free_members(const ShaderSource& source);
+
 // SPIR-V whose names are the author's.
 void drop_endings(std::vector<std::uint32_t>& words);
 

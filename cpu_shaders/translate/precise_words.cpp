@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cpu_shaders/source/find_word.h"
-#include "cpu_shaders/translate/glsl_pieces.h"
+#include "cpu_shaders/source/glsl_pieces.h"
 
 namespace twinshade {
 namespace {

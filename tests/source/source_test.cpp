@@ -142,6 +142,51 @@ TEST_CASE("__FILE__ is the number of the file, as drivers have it") {
   CHECK(text.find("own = 0, not__FILE__;") != std::string::npos);
 }
 
+TEST_CASE("__FILE__ is what the author's #line says, and stays a name where it is asked for") {
+  const std::string text = resolve_shader("t",
+                                          "int a = __FILE__;\n#line 5 10\nint b = __FILE__;\n#line 7\n"
+                                          "#include \"exact/dot.glsl\"\nint c = __FILE__;\n"
+                                          "#ifdef __FILE__\n#endif\n#if defined ( __FILE__) && __FILE__ == 0\n#endif\n",
+                                          "t.frag")
+                               .text;
+  CHECK(text.find("a = 0;") != std::string::npos);
+  CHECK(text.find("b = __FILE__;") != std::string::npos);
+  CHECK(text.find("c = 0;") != std::string::npos);
+  CHECK(text.find("#ifdef __FILE__\n") != std::string::npos);
+  CHECK(text.find("#if defined ( __FILE__) && 0 == 0\n") != std::string::npos);
+}
+
+TEST_CASE("a #version that the preprocessor does not read is none") {
+  const ShaderSource source = resolve_shader("t", "#version 330\n#if 0\n#version 450\n#endif\nfloat a;\n", "t.frag");
+  CHECK(source.version == 330);
+  CHECK(count_of(source.text, "#version") == 1);
+  CHECK(reported_position(source.text, "float a") == "\"t.frag\":5");
+}
+
+TEST_CASE("versions that there are not, or that are too old, are refused by line before anything is preprocessed") {
+  const auto refusal = [](const std::string& version) {
+    return error_of([&] {
+      resolve_shader("t", "// old\n#version " + version + "\n#if 1\n#include \"exact/dot.glsl\"\n#endif\n", "t.frag");
+    });
+  };
+  CHECK(refusal("120") == "t.frag:2: GLSL 120 is not supported: write #version 330 or later");
+  CHECK(refusal("100") == "t.frag:2: GLSL ES 100 is not supported: write #version 300 es or later");
+  CHECK(refusal("331") == "t.frag:2: GLSL 331 is not known: write #version 330 to 460");
+  CHECK(refusal("301 es") == "t.frag:2: GLSL ES 301 is not known: write #version 300 es to 320 es");
+  CHECK(refusal("330") == "");
+}
+
+TEST_CASE("what GLSL 4.50 has of an extension can be required") {
+  const auto text = [](const std::string& line) { return resolve_shader("t", line + "\n", "t.frag").text; };
+  CHECK(text("#extension GL_ARB_arrays_of_arrays : require").find("GL_ARB_arrays_of_arrays : enable\n") !=
+        std::string::npos);
+  CHECK(text("#extension GL_ARB_gpu_shader5 : require").find("GL_ARB_gpu_shader5 : require\n") != std::string::npos);
+}
+
+TEST_CASE("form feeds and vertical tabs are white space") {
+  CHECK(resolve_shader("t", "float\fa\v;\n", "t.frag").text.find("float a ;\n") != std::string::npos);
+}
+
 TEST_CASE("lines may end as on old Macs, profiles are those of GLSL") {
   CHECK(reported_position(resolve_shader("t", "float a;\rfloat marker;\r\nfloat b;", "t.frag").text, "marker") ==
         "\"t.frag\":2");
@@ -174,7 +219,7 @@ TEST_CASE("#version comes first, #extension before all code") {
 }
 
 TEST_CASE("#version is refused behind code, directives and another #version") {
-  for (const std::string before : {"in vec2 v;\n", "#define X 1\n", "#ifdef GL_ES\n", "#include \"exact/dot.glsl\"\n",
+  for (const std::string before : {"in vec2 v;\n", "#define X 1\n", "#ifndef GL_ES\n", "#include \"exact/dot.glsl\"\n",
                                    "/* a comment */ #pragma optimize(on)\n"})
     CHECK(error_of([&] { resolve_shader("t", before + "#version 330\n", "t.frag"); }) ==
           "t.frag:2: #version must come first, before all but comments: move it to the top of the file");

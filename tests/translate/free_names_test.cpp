@@ -72,6 +72,27 @@ TEST_CASE("translated code and reflection have the author's names of functions t
   CHECK_MESSAGE(es.find("twinshade_name") == std::string::npos, es);
 }
 
+TEST_CASE("members may be called length, whose name translated code and messages keep") {
+  const std::string cpp =
+      translate(named_t(kHead + "struct Hit { float length; float list[3]; };\nuniform Block { float length; } block;\n"
+                                "void main() {\n"
+                                "  Hit hit;\n  hit.length = length(vec2(x, block.length));\n"
+                                "  float length = hit.length;\n  c = length + float(hit.list.length());\n}\n"))
+          .cpp;
+  CHECK(cpp.find("block.length = load<UF>") != std::string::npos);
+  CHECK(cpp.find("twinshade_name") == std::string::npos);
+  const ShaderSource es = named_t(
+      "#version 300 es\nprecision highp float;\nstruct Hit { float length; };\nout float c;\n"
+      "void main() { Hit hit; hit.length = 1.0; c = hit.length; }\n");
+  CHECK_NOTHROW(translate(es));
+  CHECK(refusal_for(kHead + "void main() { float list[2]; c = list.length; }\n").find("twinshade_name") ==
+        std::string::npos);
+  for (const std::string text : {"c = length(vec2(x));", "float length = x;", "float l[2]; c = float(l.length());"}) {
+    const ShaderSource source = named_t(kHead + "void main() { " + text + " }\n");
+    CHECK(with_free_members(source) == source.text);
+  }
+}
+
 TEST_CASE("calls that hidden built-in functions alone would fit are refused, at their lines and by their names") {
   const std::string reason = " : no matching overloaded function found (the shader's own ";
   CHECK(refusal_for(kHead + "int abs(int v) { return v; }\nvoid main() {\n  c = abs(x); }\n") ==

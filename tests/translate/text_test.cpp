@@ -29,6 +29,20 @@ TEST_CASE("readable text has the GLSL as comments, compiled text #line") {
   CHECK(of(glsl).cpp == readable);
 }
 
+TEST_CASE("lines that #line of C++ does not take become ones that it does") {
+  TranslateOptions compiled;
+  compiled.readable = false;
+  const auto text = [&](const std::string& line) {
+    return translate(resolve_shader("t", "#version 450\nout float c;\n#line " + line + "\nvoid main() { c = 1.0; }\n",
+                                    "t.frag"),
+                     compiled)
+        .cpp;
+  };
+  CHECK(has(text("-5"), "#line 1 \"t.frag\""));
+  CHECK(has(text("2147483647"), "#line 2146483647 \"t.frag\""));
+  CHECK(has(text("7"), "#line 7 \"t.frag\""));
+}
+
 TEST_CASE("a file's name may have what means something in a string of C++") {
   TranslateOptions options;
   const std::string glsl =

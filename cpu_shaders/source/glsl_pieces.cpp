@@ -1,4 +1,4 @@
-#include "cpu_shaders/translate/glsl_pieces.h"
+#include "cpu_shaders/source/glsl_pieces.h"
 
 #include "cpu_shaders/source/find_word.h"
 

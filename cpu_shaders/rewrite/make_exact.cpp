@@ -12,6 +12,7 @@
 #include "cpu_shaders/lint/parser.h"
 #include "cpu_shaders/rewrite/constants.h"
 #include "cpu_shaders/rewrite/exact_functions.h"
+#include "cpu_shaders/rewrite/kinds_of_expression.h"
 #include "cpu_shaders/rewrite/new_keywords.h"
 #include "cpu_shaders/rewrite/token_edits.h"
 #include "cpu_shaders/source/find_word.h"
@@ -23,31 +24,6 @@ namespace {
 
 using Base = GlslType::Base;
 using Kind = Expression::Kind;
-
-bool is_comparison(const std::string& op) {
-  return op == "<" || op == ">" || op == "<=" || op == ">=" || op == "==" || op == "!=";
-}
-
-bool is_arithmetic(const std::string& op) { return op == "+" || op == "-" || op == "*" || op == "/"; }
-
-bool is_integral(const GlslType& type) { return type.is_integer() || type.base == Base::boolean; }
-
-bool is_float(const GlslType& type) { return type.base == Base::float32 && type.array_dimensions == 0; }
-
-GlslType as_float(GlslType type) {
-  if (type.is_integer()) type.base = Base::float32;
-  return type;
-}
-
-bool is_zero_literal(const Expression& e) {
-  return e.kind == Kind::literal && (e.type.is_integer() || e.type.is_floating()) && e.zeros.all;
-}
-
-// A square matrix of one scalar.
-bool is_diagonal(const Expression& e) {
-  return e.kind == Kind::construct && e.type.is_matrix() && e.type.columns == e.type.rows && e.operands.size() == 1 &&
-         e.operands[0]->type.rows == 1 && e.operands[0]->type.columns == 1 && e.text != "{";
-}
 
 // Nine significant digits of the float that is meant, zeros at the end left out where what is left is the float
 // exactly.
@@ -149,7 +125,7 @@ class MakeExact : public Listener {
       case Kind::assign:
         return assign(e, place);
       case Kind::builtin:
-        return builtin(e);
+        return builtin(e, place);
       case Kind::construct:
         return construct(e, inner);
       case Kind::declaration:
@@ -195,14 +171,15 @@ class MakeExact : public Listener {
     return std::all_of(e.operands.begin(), e.operands.end(), [&](const ExpressionPtr& o) { return is_known(*o); });
   }
 
-  // Whether a known value must be made unknown as a whole. Literal zeros and diagonals are taken one by one.
+  // Whether a known value must be made unknown as a whole. Literal zeros and diagonals are taken one by one, and what
+  // is computed by what it is computed of: of several steps compilers know some before others, and drop -0.0 + 0.0.
   bool hides(const Expression& e, Place place) const {
     if (!hiding() || place.known == Known::everything || type_text(e.type).empty() || !is_known(e)) return false;
     if (place.known == Known::nonzero && nonzero_.is_nonzero(e)) return false;
     const bool zeros =
         e.kind == Kind::construct &&
         std::all_of(e.operands.begin(), e.operands.end(), [](const ExpressionPtr& o) { return is_zero_literal(*o); });
-    return !is_zero_literal(e) && !zeros && !is_diagonal(e) && e.text != "{";
+    return !is_zero_literal(e) && !zeros && !is_diagonal(e) && e.text != "{" && !any_of_tree(e, is_step);
   }
 
   bool unseen(const Expression& e, const GlslType& type) {
@@ -252,8 +229,7 @@ class MakeExact : public Listener {
                               operator_in_scope(e.text) && !type_text(as_float(left.type)).empty() &&
                               !type_text(as_float(right.type)).empty();
     // where the whole may be known, so may its operands
-    const bool everything = is_comparison(e.text) || (place.known == Known::everything && is_known(e));
-    const Known known = everything ? Known::everything : Known::nonzero;
+    const Known known = is_comparison(e.text) ? Known::everything : known_in(e, place);
     bool varies;
     {
       const Argument argument(in_argument_, becomes_call);
@@ -323,9 +299,15 @@ class MakeExact : public Listener {
     return true;
   }
 
-  bool builtin(const Expression& e) {
+  // Which of its operands a step may know: none, if they were all known, unless the whole may be.
+  Known known_in(const Expression& step, Place place) const {
+    if (!is_known(step)) return Known::nonzero;
+    return place.known == Known::everything ? Known::everything : Known::nothing;
+  }
+
+  bool builtin(const Expression& e, Place place) {
     const bool selects = e.text == "mix" && e.operands.size() == 3 && e.operands[2]->type.base == Base::boolean;
-    Known known = is_float(e.type) && !is_known(e) ? Known::nonzero : Known::everything;
+    Known known = is_float(e.type) ? known_in(e, place) : Known::everything;
     if (selects) known = Known::nothing;
     bool varies;
     {

@@ -96,7 +96,7 @@ TEST_CASE("a, b without parentheses gets them where it becomes an argument") {
 
 TEST_CASE("constants are computed where both machines compute alike, and literals mean one float") {
   CHECK(body_of("const float x = 0.1 * 3.0; float y = x;") ==
-        "floatx=exact_unseen(exact_multiply(0.100000001,3.0),exact_zero);floaty=x;");
+        "floatx=exact_multiply(exact_unseen(0.100000001,exact_zero),exact_unseen(3.0,exact_zero));floaty=x;");
   // Constants stay where GLSL asks for one.
   CHECK(
       left_of("float t[int(W)]; t[N - 1] = a.x * W; color.x = t[0]; switch (k) { case N: color.y = float(N); }",
@@ -108,7 +108,7 @@ TEST_CASE("constants are computed where both machines compute alike, and literal
   CHECK(body_of("const ivec2 p = ivec2(a.xy * 2.0);") == "ivec2p=ivec2(exact_multiply(a.xy,2.0));");
   CHECK(body_of("const float x = 0.1; const float y = x;") == "constfloatx=0.100000001;constfloaty=x;");
   CHECK(body_of("const float x = 1.0, y = 1.0 / 3.0; const float z = x;") ==
-        "floatx=1.0,y=exact_unseen(exact_divide(1.0,3.0),exact_zero);floatz=x;");
+        "floatx=1.0,y=exact_divide(exact_unseen(1.0,exact_zero),exact_unseen(3.0,exact_zero));floatz=x;");
   CHECK(body_of("float x = a.x * 2.4 + 0.5;") == "floatx=exact_add(exact_multiply(a.x,2.40000010),0.5);");
   CHECK(left_of("float x = a.x * 2.4 + 3.1;") == "");
   CHECK(body_of("float x = a.x + 0.0;") == "floatx=exact_add(a.x,exact_zero);");
@@ -126,11 +126,19 @@ TEST_CASE("what shares a `const` with a constant that sizes an array stays one, 
 }
 
 TEST_CASE("no value is known to compilers, so that none can be computed to be zero, and no bit of it changes") {
-  // as a whole, where something in it may be zero or arithmetic may make it so
+  // what is computed, by what it is computed of
+  CHECK(body_of("mat2 x = inverse(mat2(4.0));") ==
+        "mat2x=exact_inverse(exact_diagonal_2(exact_unseen(4.0,exact_zero),exact_zero));");
+  CHECK(body_of("vec2 v = vec2(sin(HALF), 1.0);") ==
+        "vec2v=vec2(exact_sin(exact_unseen(HALF,exact_zero)),exact_unseen(1.0,exact_zero));");
+  CHECK(body_of("float x = pow(2, HALF);") ==
+        "floatx=exact_pow(exact_unseen(float(2),exact_zero),exact_unseen(HALF,exact_zero));");
+  CHECK(body_of("vec2 v = unpackHalf2x16(0u);") == "vec2v=exact_unseen(unpackHalf2x16(0u),exact_zero);");
   CHECK(body_of("float x = a.x * (1.0 - 1.0);") ==
-        "floatx=exact_multiply(a.x,exact_unseen((exact_subtract(1.0,1.0)),exact_zero));");
+        "floatx=exact_multiply(a.x,(exact_subtract(exact_unseen(1.0,exact_zero),exact_unseen(1.0,exact_zero))));");
   CHECK(body_of("float x = 2.0; x -= 2.0;") == "floatx=exact_unseen(2.0,exact_zero);x=exact_subtract(x,2.0);");
-  CHECK(body_of("float x = floor(0.5);") == "floatx=exact_unseen(floor(0.5),exact_zero);");
+  CHECK(body_of("float x = floor(0.5);") == "floatx=floor(exact_unseen(0.5,exact_zero));");
+  // else as a whole, where something in it may be zero
   CHECK(body_of("float x = k > 0 ? 1.0 : 0.0;") == "floatx=k>0?exact_unseen(1.0,exact_zero):exact_zero;");
   CHECK(body_of("vec4 v = vec4(a, 1);") == "vec4v=exact_unseen(vec4(a,1),exact_zero);");
   CHECK(body_of("vec3 v = vec3(1.0, 0.0, 2.0);") == "vec3v=exact_unseen(vec3(1.0,0.0,2.0),exact_zero);");
@@ -153,7 +161,8 @@ TEST_CASE("no value is known to compilers, so that none can be computed to be ze
   CHECK(body_of("const float T[2] = float[](1.0, 2.0); float x = a.x * T[k];") ==
         "constfloatT[2]=float[](1.0,2.0);floatx=exact_multiply(a.x,T[k]);");
   CHECK(body_of("const float T[2] = float[](1.0, 2.0); float x = T[k] - 1.0;") ==
-        "constfloatT[2]=float[](1.0,2.0);floatx=exact_unseen(exact_subtract(T[k],1.0),exact_zero);");
+        "constfloatT[2]=float[](1.0,2.0);floatx=exact_subtract(exact_unseen(T[k],exact_zero),exact_unseen(1.0,exact_"
+        "zero));");
   // what must stay a constant is hidden where it is used
   const std::string kept = "const float Z = 0.0; uniform float u = Z; float none() { return 0; }\n";
   CHECK(plain_body(make_exact(shader_of("float x = a.x + Z;", kept))) ==

@@ -68,7 +68,7 @@ struct CheckVerb {
     if (!options.inputs_file.empty()) files.push_back(options.inputs_file);
     for (const std::string& shader : shaders) {
       files.push_back(shader + ".inputs");
-      for (std::string& file : files_of_shader(shader, options.include_folders)) files.push_back(std::move(file));
+      for (std::string& file : files_of_shader(shader, options.source)) files.push_back(std::move(file));
     }
     return files;
   }
@@ -159,7 +159,7 @@ Verb add_check(CLI::App& app) {
       ->add_option("--inputs", verb->options.inputs_file,
                    "ranges of inputs (default: SHADER.inputs, where there is one)")
       ->type_name("FILE");
-  add_include_option(*command, verb->options.include_folders);
+  add_source_options(*command, verb->options.source);
   command->add_flag("--make-exact", verb->options.make_exact, "compare the shader brought into the exact dialect");
   add_whole_option(*command, "--ulp",
                    "largest distance that is called the same, +0 and -0 being 0 apart (default: every bit has to be)",

@@ -410,7 +410,7 @@ class CompareRun {
 std::vector<std::string> CompareVerb::picture_names() const {
   std::vector<std::string> shaders;
   if (!shading.shader.empty()) {
-    shaders.push_back(load_fragment_shader(shading.shader).name);
+    shaders.push_back(load_fragment_shader(shading.shader, shading.source).name);
   } else {
     for (const TechniqueInfo* technique : chosen_techniques(shading)) {
       const std::string name(technique->name);

@@ -75,7 +75,7 @@ struct EvalVerb {
   CLI::App* command = nullptr;
   CommonOptions common;
   std::string shader, cases_file, junit_file, annotate;
-  std::vector<std::string> include_folders;
+  SourceOptions source;
   std::vector<std::string> backends{"cpu", "egl"};
   Number number = natural_number(machine_isa());
   EvaluatorOptions options;
@@ -110,7 +110,7 @@ struct EvalVerb {
       cases[i].cases_file = paths[i].cases;
       guarded(cases[i], many, output, [&] {
         if (!paths[i].missing.empty()) throw UserError(paths[i].missing);
-        sources[i] = load_fragment_shader(paths[i].shader, include_folders);
+        sources[i] = load_fragment_shader(paths[i].shader, source);
         cases[i].hash = source_hash(sources[i]);
         cases[i].cases = parse_cases(read_file(paths[i].cases, kMostCasesBytes), paths[i].cases);
       });
@@ -123,7 +123,7 @@ struct EvalVerb {
     std::vector<std::string> files;
     for (const CasePaths& pair : paths) {
       files.push_back(pair.cases);
-      for (std::string& file : files_of_shader(pair.shader, include_folders)) files.push_back(std::move(file));
+      for (std::string& file : files_of_shader(pair.shader, source)) files.push_back(std::move(file));
     }
     return files;
   }
@@ -244,7 +244,7 @@ Verb add_eval(CLI::App& app) {
           "--number", [verb = verb.get()](const std::string& name) { verb->number = number_named(name); },
           "number type of the CPU (default: lanes, as many as registers hold)")
       ->type_name(fmt::format("{}", fmt::join(kEvalNumbers, "|")));
-  add_include_option(*command, verb->include_folders);
+  add_source_options(*command, verb->source);
   command->add_option("--junit", verb->junit_file, "write the results as JUnit XML; - for stdout")->type_name("F.xml");
   add_annotate_option(*command, verb->annotate);
   add_fma_option(*command, verb->options.host_fma);

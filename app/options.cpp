@@ -298,6 +298,9 @@ void add_shading_options(CLI::App& command, ShadingOptions& options, const std::
   add_light_option(command, options, draws_one(default_techniques));
   command.add_option("--shader", options.shader, "draw with this fragment shader instead of a technique")
       ->type_name("MY.frag");
+  add_source_options(command, options.source);
+  for (const char* option : {"--include", "--define"})
+    command.get_option(option)->needs(command.get_option("--shader"));
 }
 
 void add_reference_options(CLI::App& command, ShadingOptions& options) {
@@ -380,10 +383,16 @@ void add_whole_option(CLI::App& command, const std::string& name, const std::str
   });
 }
 
-void add_include_option(CLI::App& command, std::vector<std::string>& folders) {
-  command.add_option("-I,--include", folders, "folder to look for included files in; again for several")
+void add_source_options(CLI::App& command, SourceOptions& options) {
+  command
+      .add_option("-I,--include", options.include_folders, "folder to look for included files in; again for several")
       ->each(require_include_folder)
       ->type_name("DIR");
+  command
+      .add_option("-D,--define", options.defines,
+                  "macro in front of the shader's text, 1 without a value; again for several")
+      ->each(require_define)
+      ->type_name("NAME[=VALUE]");
 }
 
 void add_time_limit_option(CLI::App& command, double& seconds) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cpu_shaders/runtime/shader_abi.h"
+#include "cpu_shaders/shader_source.h"
 #include "golden/pictures.h"
 #include "lighting/visibility_bundle.h"
 #include "raster/renderer.h"
@@ -74,6 +75,7 @@ struct SubjectOptions {
 struct ShadingOptions {
   std::vector<std::string> techniques;  // "all" or names
   std::string shader;                   // a user's fragment shader, or empty
+  SourceOptions source;                 // of that
   LightSource light = LightSource::automatic;
   std::uint32_t reference_rays = 1024;    // technique reference
   int reference_order = 0;                // SH order that the environment is cut to for it; 0: as it is
@@ -112,8 +114,8 @@ void add_count_option(CLI::App& command, const std::string& name, int& count,
 // A whole number; CLI11 takes -1 for the largest.
 void add_whole_option(CLI::App& command, const std::string& name, const std::string& description, std::uint64_t least,
                       std::uint64_t most, std::function<void(std::uint64_t)> take);
-// -I, --include: folders that exist.
-void add_include_option(CLI::App& command, std::vector<std::string>& folders);
+// -I, --include: folders that exist; -D, --define.
+void add_source_options(CLI::App& command, SourceOptions& options);
 void add_time_limit_option(CLI::App& command, double& seconds);
 // Of a command that has --output already.
 void add_picture_options(CLI::App& command, PictureOptions& options);

@@ -159,12 +159,12 @@ void Output::json_so_far(const Json& so_far) const {
 
 void Output::junit(const std::string& xml) const { write_to(junit_file_, xml); }
 
-std::vector<std::string> files_of_shader(const std::string& shader, const std::vector<std::string>& include_folders) {
+std::vector<std::string> files_of_shader(const std::string& shader, const SourceOptions& options) {
   std::vector<std::string> files{shader};
   std::error_code code;
   if (!fs::is_regular_file(shader, code)) return files;
   try {
-    const ShaderSource source = load_fragment_shader(shader, include_folders);
+    const ShaderSource source = load_fragment_shader(shader, options);
     files.insert(files.end(), source.files.begin(), source.files.end());
   } catch (const std::exception&) {  // told where it is read to be run
   }

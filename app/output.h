@@ -61,7 +61,7 @@ class Output {
 
 // A shader's file and those that it includes, as far as they can be told: what is wrong with it is said elsewhere. A
 // pipe can be read once only: alone.
-std::vector<std::string> files_of_shader(const std::string& shader, const std::vector<std::string>& include_folders);
+std::vector<std::string> files_of_shader(const std::string& shader, const SourceOptions& options);
 
 // UserError where nothing could be written into `folder`, which need not be there yet: to be asked before any work. A
 // run that is refused leaves no folder: it is made with the first file.

@@ -295,7 +295,7 @@ std::vector<std::string> files_among(std::vector<std::string> names, const std::
 
 std::vector<std::string> files_read(const SubjectOptions& options, const ShadingOptions& shading) {
   std::vector<std::string> files;
-  if (!shading.shader.empty()) files = load_fragment_shader(shading.shader).files;
+  if (!shading.shader.empty()) files = load_fragment_shader(shading.shader, shading.source).files;
   for (const auto& more : {files_among({options.scene}, scene_names()),
                            files_among({options.environment, options.second_environment}, environment_names())})
     files.insert(files.end(), more.begin(), more.end());
@@ -306,7 +306,7 @@ Subject load_subject(const SubjectOptions& options, const ShadingOptions& shadin
                      const Output& output, const std::string& written) {
   // Names and shaders are checked before anything that takes long.
   const bool own_shader = !shading.shader.empty();
-  const std::string text = own_shader ? load_fragment_shader(shading.shader).text : "";
+  const std::string text = own_shader ? load_fragment_shader(shading.shader, shading.source).text : "";
   const std::vector<const TechniqueInfo*> chosen =
       own_shader ? std::vector<const TechniqueInfo*>() : chosen_techniques(shading);
   chosen_maps(shading);
@@ -351,7 +351,7 @@ Subject load_subject(const SubjectOptions& options, const ShadingOptions& shadin
 std::vector<Shading> load_shadings(const ShadingOptions& options, const Subject& subject) {
   std::vector<Shading> shadings;
   if (!options.shader.empty()) {
-    shadings.push_back({options.shader, "", "", load_fragment_shader(options.shader)});
+    shadings.push_back({options.shader, "", "", load_fragment_shader(options.shader, options.source)});
   } else {
     const TexturePacking packing = texture_packing(subject.bundle);
     for (const LitTechnique& lit : subject.drawn) {

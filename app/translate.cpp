@@ -21,10 +21,10 @@ namespace {
 
 // A file if there is one of that name or it looks like a path; else a technique, "h4", or its form for another place of
 // the coefficients, "h4_vertex" or "sh3_volume".
-ShaderSource source_of(const std::string& name, const std::vector<std::string>& include_folders) {
+ShaderSource source_of(const std::string& name, const SourceOptions& options) {
   std::error_code code;
   if (std::filesystem::exists(name, code) || name.find_first_of("./\\") != std::string::npos)
-    return load_shader(name, include_folders);
+    return load_shader(name, options);
   if (name == kReferenceTechnique) throw UserError(fmt::format("technique {}: {}", name, kReferenceReason));
   std::vector<std::string> names;
   for (const TechniqueInfo& technique : techniques()) {
@@ -41,7 +41,7 @@ ShaderSource source_of(const std::string& name, const std::vector<std::string>& 
 struct TranslateVerb {
   CommonOptions common;
   std::string shader, file;
-  std::vector<std::string> include_folders;
+  SourceOptions source_options;
 
   int run() {
     if (file == "-") file.clear();  // stdout
@@ -49,7 +49,7 @@ struct TranslateVerb {
     if (!file.empty()) require_writable_file(file);
     if (file.empty() && common.json == "-")
       throw UserError("--json -: the C++ goes to stdout; name a file for one of them");
-    const ShaderSource source = source_of(shader, include_folders);
+    const ShaderSource source = source_of(shader, source_options);
     output.require_not_read(source.files, file);
     TranslateOptions options;
     options.readable = true;
@@ -95,7 +95,7 @@ Verb add_translate(CLI::App& app) {
   const auto verb = std::make_shared<TranslateVerb>();
   command->add_option("shader", verb->shader, "fragment shader file, or a technique")->type_name("SHADER")->required();
   command->add_option("-o,--output", verb->file, "C++ file to write (default, and -: stdout)")->type_name("F.cpp");
-  add_include_option(*command, verb->include_folders);
+  add_source_options(*command, verb->source_options);
   add_common_options(*command, verb->common);
   return {command, [verb] { return verb->run(); }};
 }

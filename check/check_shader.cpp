@@ -71,7 +71,7 @@ class Check {
   }
 
   void read() {
-    source_ = load_fragment_shader(result_.path, options_.include_folders);
+    source_ = load_fragment_shader(result_.path, options_.source);
     result_.files = source_.files;
     ranges_ = declared_ranges(source_);
     std::string side_file = options_.inputs_file;

@@ -20,7 +20,7 @@ struct CheckOptions {
   std::vector<EvaluationTarget> on;  // the first is what the others are compared with
   GenerateOptions generate;
   std::string inputs_file;  // side file; empty: SHADER.inputs where there is one
-  std::vector<std::string> include_folders;
+  SourceOptions source;
   bool make_exact = false;
   std::optional<std::uint64_t> ulp;  // largest distance that is still called the same; none: every bit has to be
   bool timing = true;

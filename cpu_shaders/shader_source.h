@@ -14,25 +14,34 @@ enum class ShaderStage : std::uint8_t { fragment, compute };
 //   #line N "path"     (GL_GOOGLE_cpp_style_line_directive; what glslang gets)
 // and gl_text() turns those into  #line N k  for drivers, k an index into files.
 struct ShaderSource {
-  std::string name;   // technique name, or the user's file name without folder and ending
-  std::string text;   // no #version line unless the author wrote one; then it is the first line
+  std::string name;                // technique name, or the user's file name without folder and ending
+  std::string text;                // no #version line unless the author wrote one; then it is the first line
   std::vector<std::string> files;  // as they appear in messages; files[0] is the main file
   int version = 450;               // of the author's #version line, 450 where there is none
   bool es = false;
   ShaderStage stage = ShaderStage::fragment;  // by the main file's name: compute where it ends in .comp
 };
 
-// Searches, in order: the folder of the including file, then `include_folders`, then the built-in shaders (embedded in the
-// binary, addressed as "exact/dot.glsl", "basis/sh.glsl" ...). Include once per file: a second #include of the same file is empty.
-// UserError "file:line: cannot include "x": not found in ..." ; include loops are impossible by construction.
-// UserError where the file's name ends like those of other stages (.vert, .geom ...).
-ShaderSource load_shader(const std::string& path, const std::vector<std::string>& include_folders = {});
+// What stands outside of a shader's files and decides what they say.
+struct SourceOptions {
+  std::vector<std::string> include_folders = {};  // where #include looks, in this order
+  std::vector<std::string> defines = {};          // "NAME=VALUE", "NAME" for 1: macros in front of the main file
+};
+
+// UserError where a define is none: NAME is no name of a macro's, or one of GLSL's own, or VALUE has ends of lines.
+void require_define(const std::string& define);
+
+// Searches, in order: the folder of the including file, then the folders of the options, then the built-in shaders
+// (embedded in the binary, addressed as "exact/dot.glsl", "basis/sh.glsl" ...). Include once per file: a second
+// #include of the same file is empty. UserError "file:line: cannot include "x": not found in ..." ; include loops are
+// impossible by construction. UserError where the file's name ends like those of other stages (.vert, .geom ...).
+ShaderSource load_shader(const std::string& path, const SourceOptions& options = {});
 // UserError where an include folder that someone names ("builtin:...": of the shaders in the program) does not exist.
 void require_include_folder(const std::string& folder);
 // The same for what only fragment shaders do; a compute shader is refused by name.
-ShaderSource load_fragment_shader(const std::string& path, const std::vector<std::string>& include_folders = {});
+ShaderSource load_fragment_shader(const std::string& path, const SourceOptions& options = {});
 ShaderSource resolve_shader(const std::string& name, const std::string& main_text, const std::string& main_path,
-                            const std::vector<std::string>& include_folders = {});
+                            const SourceOptions& options = {});
 
 // Text for an OpenGL driver: the given version line, optional lines after it, #line with numbers.
 std::string gl_text(const ShaderSource& source, const std::string& version_line, const std::string& extra_lines);

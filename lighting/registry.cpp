@@ -109,7 +109,7 @@ struct Unresolved {
   std::string name, text, shown;  // shown: in messages
 
   ShaderSource resolve(const std::vector<std::string>& include_folders) const {
-    return resolve_shader(name, text, shown, include_folders);
+    return resolve_shader(name, text, shown, {include_folders});
   }
 };
 
@@ -204,7 +204,7 @@ ShaderSource basis_values_source(const TechniqueInfo& technique, const std::vect
       "  vec3 n = defined_direction();\n"
       "  for (int i = 0; i < BASIS_COUNT; ++i) value[i] = basis_value(i, n);\n"
       "}\n";
-  return require_count(technique, resolve_shader(name + "_values", text, name + "_values", include_folders));
+  return require_count(technique, resolve_shader(name + "_values", text, name + "_values", {include_folders}));
 }
 
 ShaderSource basis_irradiance_source(const TechniqueInfo& technique, const std::vector<std::string>& include_folders) {
@@ -229,7 +229,7 @@ ShaderSource basis_irradiance_source(const TechniqueInfo& technique, const std::
       "  irradiance = basis_irradiance(defined_direction());\n"
       "  reads = float(coefficients_read);\n"
       "}\n";
-  return require_count(technique, resolve_shader(name + "_irradiance", text, name + "_irradiance", include_folders));
+  return require_count(technique, resolve_shader(name + "_irradiance", text, name + "_irradiance", {include_folders}));
 }
 
 }  // namespace twinshade

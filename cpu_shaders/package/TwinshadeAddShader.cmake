@@ -1,10 +1,11 @@
-# twinshade_add_shader(TARGET FILE my.frag [NAME name] [INCLUDE folder...] [ISAS isa...])
+# twinshade_add_shader(TARGET FILE my.frag [NAME name] [INCLUDE folder...] [DEFINE NAME[=VALUE]...] [ISAS isa...])
 #
 # Translates a fragment shader and compiles it into TARGET, an executable or library of this folder's CMakeLists.txt, whose sources can
 # then include "name.h": structs of the shader's uniforms, inputs and outputs, and calls, in namespace `name`.
 #   NAME     a C++ identifier that begins with a letter, no function or macro of C and none that TARGET has; else the file's name
 #            without folder and ending
 #   INCLUDE  where the shader's #includes are looked for, after its own folder
+#   DEFINE   macros in front of the shader's text, 1 without a value: one FILE with others under another NAME is a variant
 #   ISAS     of baseline, avx2 and avx512: what to compile for; else all. The best that the processor has is chosen at run time.
 # Translated shaders are compiled without contraction and without fast-math, whatever the project's own flags say: their results
 # are the same bits as everywhere else.
@@ -13,12 +14,12 @@ cmake_policy(PUSH)
 cmake_policy(VERSION 3.20)
 
 function(twinshade_add_shader target)
-  cmake_parse_arguments(PARSE_ARGV 1 S "" "FILE;NAME" "INCLUDE;ISAS")
+  cmake_parse_arguments(PARSE_ARGV 1 S "" "FILE;NAME" "INCLUDE;DEFINE;ISAS")
   if(NOT TARGET ${target})
     message(FATAL_ERROR "twinshade_add_shader: ${target} is no target; add_executable or add_library comes first")
   endif()
   if(NOT S_FILE OR S_UNPARSED_ARGUMENTS)
-    message(FATAL_ERROR "twinshade_add_shader(TARGET FILE my.frag [NAME name] [INCLUDE folder...] [ISAS isa...]); got: ${ARGV}")
+    message(FATAL_ERROR "twinshade_add_shader(TARGET FILE my.frag [NAME name] [INCLUDE folder...] [DEFINE NAME[=VALUE]...] [ISAS isa...]); got: ${ARGV}")
   endif()
   get_filename_component(file ${S_FILE} ABSOLUTE BASE_DIR ${CMAKE_CURRENT_SOURCE_DIR})
   if(NOT EXISTS ${file})
@@ -65,10 +66,14 @@ function(twinshade_add_shader target)
     get_filename_component(include ${include} ABSOLUTE BASE_DIR ${CMAKE_CURRENT_SOURCE_DIR})
     list(APPEND includes -I ${include})
   endforeach()
+  set(defines "")
+  foreach(define IN LISTS S_DEFINE)
+    list(APPEND defines -D ${define})
+  endforeach()
   file(MAKE_DIRECTORY ${folder})
   list(JOIN isas "," isa_list)
   add_custom_command(OUTPUT ${translation} ${calls} ${folder}/${S_NAME}.h
-    COMMAND twinshade::translate ${file} ${includes} --name ${S_NAME} --isas ${isa_list} --header ${folder}
+    COMMAND twinshade::translate ${file} ${includes} ${defines} --name ${S_NAME} --isas ${isa_list} --header ${folder}
             --depfile ${translation}.d -o ${translation}
     DEPENDS ${file} twinshade::translate
     DEPFILE ${translation}.d

@@ -107,8 +107,14 @@ ShaderStage stage_of(const std::string& path) {
 
 class Resolver {
  public:
-  Resolver(ShaderStage stage, const std::vector<std::string>& include_folders)
-      : include_folders_(include_folders), stage_(stage) {}
+  Resolver(ShaderStage stage, const SourceOptions& options) : include_folders_(options.include_folders), stage_(stage) {
+    for (const std::string& define : options.defines) {
+      require_define(define);
+      const std::size_t equals = define.find('=');
+      defines_ += "#define " + define.substr(0, equals) + " " +
+                  (equals == define.npos ? "1" : define.substr(equals + 1)) + "\n";
+    }
+  }
 
   void resolve(File file) {
     unite_with_builtin(file);
@@ -150,7 +156,7 @@ class Resolver {
   ShaderSource finish(const std::string& name) {
     ShaderSource source;
     source.name = name;
-    source.text = version_line_ + prologue_ + body_;
+    source.text = version_line_ + prologue_ + defines_ + body_;
     source.files = files_;
     source.version = version_;
     source.es = es_;
@@ -329,7 +335,7 @@ class Resolver {
   const std::vector<std::string>& include_folders_;
   const ShaderStage stage_;
   std::vector<std::string> identities_, files_;
-  std::string version_line_, prologue_, body_;
+  std::string version_line_, prologue_, defines_, body_;
   int version_ = 450, depth_ = 0, conditional_depth_ = 0, questions_ = 0;
   bool es_ = false, code_seen_ = false, file_is_numbered_ = false;
 };
@@ -337,7 +343,7 @@ class Resolver {
 }  // namespace
 
 ShaderSource resolve_shader(const std::string& name, const std::string& main_text, const std::string& main_path,
-                            const std::vector<std::string>& include_folders) {
+                            const SourceOptions& options) {
   File file;
   file.shown = main_path;
   file.folder = fs::path(main_path).parent_path().string();
@@ -348,7 +354,7 @@ ShaderSource resolve_shader(const std::string& name, const std::string& main_tex
     file.builtin = true;
     file.folder = fs::path(main_path.substr(8)).parent_path().string();
   }
-  Resolver resolver(stage_of(main_path), include_folders);
+  Resolver resolver(stage_of(main_path), options);
   resolver.resolve(std::move(file));
   return resolver.finish(name);
 }
@@ -359,7 +365,18 @@ void require_include_folder(const std::string& folder) {
     throw UserError("--include " + folder + ": there is no such folder");
 }
 
-ShaderSource load_shader(const std::string& path, const std::vector<std::string>& include_folders) {
+void require_define(const std::string& define) {
+  const std::string name = define.substr(0, define.find('='));
+  const auto refuse = [&](const std::string& why) { throw UserError("--define " + define + ": " + why); };
+  if (name.empty() || !std::all_of(name.begin(), name.end(), is_word_character) ||
+      std::isdigit(static_cast<unsigned char>(name[0])))
+    refuse("wants NAME or NAME=VALUE, NAME of letters, digits and underscores");
+  if (name.rfind("GL_", 0) == 0 || name.rfind("gl_", 0) == 0 || name.find("__") != name.npos || name == "defined")
+    refuse("such names are GLSL's own");
+  if (define.find_first_of("\r\n") != define.npos || define.back() == '\\') refuse("the value must be one line");
+}
+
+ShaderSource load_shader(const std::string& path, const SourceOptions& options) {
   // It stands in comments of generated code, in lines of tables and of messages.
   if (std::any_of(path.begin(), path.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; })) {
     std::string shown = path;
@@ -370,11 +387,11 @@ ShaderSource load_shader(const std::string& path, const std::vector<std::string>
   refuse_large_file(path);
   const std::string text = read_file(path, kMostBytes);
   if (text.find('\0') != std::string::npos) throw UserError(path + ": not GLSL: it has zero bytes");
-  return resolve_shader(fs::path(path).stem().string(), text, path, include_folders);
+  return resolve_shader(fs::path(path).stem().string(), text, path, options);
 }
 
-ShaderSource load_fragment_shader(const std::string& path, const std::vector<std::string>& include_folders) {
-  ShaderSource source = load_shader(path, include_folders);
+ShaderSource load_fragment_shader(const std::string& path, const SourceOptions& options) {
+  ShaderSource source = load_shader(path, options);
   if (source.stage == ShaderStage::compute)
     throw UserError(path +
                     ": a compute shader (.comp) is neither drawn nor checked: `twinshade translate` translates and "

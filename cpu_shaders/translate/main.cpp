@@ -4,7 +4,7 @@
 //     lighting/registry.def or lighting/sphere_maps.def. KIND: lightmap, vertex or volume (the technique's fragment
 //     shader with that coefficient storage), basis_values, basis_irradiance, map_taps or map_direction (for the host).
 //     CODE_OF: NAME, or another one of that kind whose GLSL is the same but for the name; its entries then serve both.
-//   twinshade-translate FILE.frag [-I FOLDER]... [--name IDENTIFIER] [--readable] -o OUT.cpp
+//   twinshade-translate FILE.frag [-I FOLDER]... [-D NAME[=VALUE]]... [--name IDENTIFIER] [--readable] -o OUT.cpp
 //                       [--header FOLDER --isas ISA,...] [--depfile OUT.d]
 //     --header: IDENTIFIER.h and IDENTIFIER_calls.cpp, typed C++ (cpu_shaders/package/cpp_header.h). --depfile: the
 //     files that were read, as make and ninja want to know them.
@@ -31,7 +31,8 @@ namespace {
 
 constexpr const char* kUsage =
     "usage: twinshade-translate --list FILE FOLDER\n"
-    "       twinshade-translate FILE.frag [-I FOLDER]... [--name IDENTIFIER] [--readable] -o OUT.cpp\n"
+    "       twinshade-translate FILE.frag [-I FOLDER]... [-D NAME[=VALUE]]... [--name IDENTIFIER] [--readable] -o "
+    "OUT.cpp\n"
     "                           [--header FOLDER --isas ISA,...] [--depfile OUT.d]";
 
 struct Job {
@@ -68,14 +69,17 @@ ShaderSource builtin_source(const std::string& name, const std::string& kind) {
 
 Job job_of(const std::vector<std::string>& arguments) {
   Job job;
-  std::vector<std::string> folders, names;
+  std::vector<std::string> names;
+  SourceOptions options;
   for (std::size_t k = 0; k < arguments.size(); ++k) {
     const auto value = [&] {
       if (k + 1 == arguments.size()) throw UserError(arguments[k] + " wants a value\n" + kUsage);
       return arguments[++k];
     };
     if (arguments[k] == "-I")
-      folders.push_back(value());
+      options.include_folders.push_back(value());
+    else if (arguments[k] == "-D")
+      options.defines.push_back(value());
     else if (arguments[k] == "-o")
       job.output = value();
     else if (arguments[k] == "--name")
@@ -95,8 +99,8 @@ Job job_of(const std::vector<std::string>& arguments) {
   const std::string& identifier = job.options.identifier;
   if (!identifier.empty() && identifier != identifier_from(identifier))
     throw UserError("--name " + identifier + ": no C++ identifier; " + identifier_from(identifier) + " would be one");
-  for (const std::string& folder : folders) require_include_folder(folder);
-  job.source = load_shader(names[0], folders);
+  for (const std::string& folder : options.include_folders) require_include_folder(folder);
+  job.source = load_shader(names[0], options);
   return job;
 }
 

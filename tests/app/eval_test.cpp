@@ -152,6 +152,25 @@ TEST_CASE("eval looks for included files in the folders that it is given, for on
   }
 }
 
+TEST_CASE("macros may be defined for a shader, in each verb that reads one alone") {
+  const Folder folder;
+  const std::string shader =
+      folder.file("a.frag", "#version 330\nin float x; out float y;\nvoid main() { y = x * float(FACTOR); }\n");
+  const std::string json = folder.file("a.json", R"({"values": {
+      "inputs": [{"name": "x", "type": "float", "values": [2]}], "outputs": [{"name": "y", "type": "float", "values": [6]}]}})");
+  CHECK(run_twinshade({"eval", shader, "--cases", json, "--on", "cpu,egl", "-D", "FACTOR=3"}).code == 0);
+  CHECK(run_twinshade({"eval", shader, "--cases", json, "--on", "cpu", "--define", "FACTOR"}).code == 1);
+  CHECK(run_twinshade({"check", shader, "--on", "cpu,egl", "--no-timing", "-DFACTOR=3"}).code == 0);
+  const Run translated = run_twinshade({"translate", shader, "-D", "FACTOR=7"});
+  CHECK_MESSAGE(translated.out.find("UF(7.0f)") != std::string::npos, translated.out);
+  check_refused({"eval", shader, "--cases", json, "--on", "cpu"}, "a.frag:3: ");
+  check_refused({"check", shader, "-D", "7=3"}, "--define 7=3: wants NAME or NAME=VALUE");
+  check_refused({"render", "quad", "--technique", "lightmap", "-D", "A"}, "--define requires --shader");
+  const std::string drawn = folder.file("b.frag", "#version 330\nout vec4 c;\nvoid main() { c = vec4(FACTOR); }\n");
+  CHECK(run_twinshade({"compare", "quad", "--shader", drawn, "-D", "FACTOR=3", "--size", "16x16", "--on", "cpu,egl"})
+            .code == 0);
+}
+
 TEST_CASE("textures and storage buffers, which a table cannot give, are refused at their declaration") {
   const Folder folder;
   const std::string json =

@@ -73,7 +73,7 @@ TEST_CASE("includes are resolved beside the including file, in the include folde
                                         "#include <leaf.glsl>\n"
                                         "#include \"exact/attributes.glsl\"\n"
                                         "void main() {}\n");
-  const ShaderSource source = load_shader(main, {(folder.path / "inner").string()});
+  const ShaderSource source = load_shader(main, {{(folder.path / "inner").string()}});
   CHECK(source.name == "main");
   CHECK(source.files.size() == 4);
   CHECK(source.files[0] == main);
@@ -183,6 +183,27 @@ TEST_CASE("what GLSL 4.50 has of an extension can be required") {
   CHECK(text("#extension GL_ARB_gpu_shader5 : require").find("GL_ARB_gpu_shader5 : require\n") != std::string::npos);
 }
 
+TEST_CASE("defines stand in front of the main file, behind #version and #extension, and move no line") {
+  const ShaderSource source = resolve_shader("t",
+                                             "#version 330\n#extension GL_ARB_gpu_shader5 : enable\n"
+                                             "#if LEVEL > 1 && defined(FAST)\nfloat marker = SCALE;\n#endif\n",
+                                             "t.frag", {{}, {"LEVEL=2", "FAST", "SCALE=2.0 * 3.0", "EMPTY="}});
+  CHECK(source.text.find("#define LEVEL 2\n#define FAST 1\n#define SCALE 2.0 * 3.0\n#define EMPTY \n") >
+        source.text.find("GL_ARB_gpu_shader5"));
+  CHECK(reported_position(source.text, "marker") == "\"t.frag\":4");
+  const std::string text = preprocess(source);
+  CHECK(text.find("marker") != std::string::npos);
+  CHECK(text.find("2.0") != std::string::npos);
+}
+
+TEST_CASE("what is no define is refused by itself") {
+  for (const char* define :
+       {"", "=1", "1A", "A-B=2", "F(x)=x", "GL_ES", "gl_x=1", "A__B", "defined", "A=1\n2", "A=1\\"})
+    CHECK_MESSAGE(error_of([&] { require_define(define); }).find("--define " + std::string(define) + ": ") == 0,
+                  define);
+  for (const char* define : {"A", "_a1=", "A=B=C"}) CHECK_NOTHROW(require_define(define));
+}
+
 TEST_CASE("form feeds and vertical tabs are white space") {
   CHECK(resolve_shader("t", "float\fa\v;\n", "t.frag").text.find("float a ;\n") != std::string::npos);
 }
@@ -239,7 +260,7 @@ TEST_CASE("a text without #version has none and counts as 450") {
 }
 
 TEST_CASE("what cannot be included is named with file, line and places") {
-  const std::string missing = error_of([] { resolve_shader("t", "\n#include \"lost.glsl\"\n", "a/t.frag", {"b"}); });
+  const std::string missing = error_of([] { resolve_shader("t", "\n#include \"lost.glsl\"\n", "a/t.frag", {{"b"}}); });
   CHECK(missing == "a/t.frag:2: cannot include \"lost.glsl\": not found in a, b, built-in shaders");
   CHECK(error_of([] { resolve_shader("t", "#include LOST\n", "t.frag"); }).rfind("t.frag:1: ", 0) == 0);
   CHECK(error_of([] { load_shader("/nonexistent.frag"); }).find("/nonexistent.frag") != std::string::npos);

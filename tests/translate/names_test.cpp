@@ -61,7 +61,7 @@ TEST_CASE("what generated code says without a qualifier is the name of nothing i
   std::vector<ShaderSource> sources = {resolve_shader("computing", kComputing, "computing.comp")};
   const std::string folder = std::string(TWINSHADE_SOURCE_DIR) + "/tests/translate/shaders";
   for (const auto& entry : std::filesystem::directory_iterator(folder))
-    sources.push_back(load_shader(entry.path().string(), {std::string(TWINSHADE_SOURCE_DIR) + "/shaders"}));
+    sources.push_back(load_shader(entry.path().string(), {{std::string(TWINSHADE_SOURCE_DIR) + "/shaders"}}));
   CHECK(sources.size() > 8);
   for (const ShaderSource& source : sources) {
     CAPTURE(source.name);

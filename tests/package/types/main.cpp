@@ -14,8 +14,10 @@
 #include "bits_only.h"
 #include "initial.h"
 #include "names.h"
+#include "narrow.h"
 #include "quads.h"
 #include "types.h"
+#include "wide.h"
 
 // other_unit.cpp
 float clamped_elsewhere(float x);
@@ -207,6 +209,8 @@ int main() {
   expect_equal("tone in a library", warm_tone(3), 4);
   expect_equal("tone in another library", cold_tone(3), 300);
   expect_equal("<string.h> beside a shader's string.h", length_elsewhere("four"), 4);
+  expect_equal("a variant", narrow::shade({}, narrow::Inputs{}).taps, 3);
+  expect_equal("another variant", wide::shade({}, wide::Inputs{}).taps, 500);
   expect_equal("bits", bits_only::shade({}, {.word = std::bit_cast<std::uint32_t>(1.5f)}).value, 1.5);
   return failures;
 }

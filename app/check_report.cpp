@@ -59,6 +59,7 @@ std::string line_text(const CheckedShader& shader, const Counterexample& example
                                  d.statement.what, d.occurrence > 1 ? fmt::format(", time {}", d.occurrence) : "",
                                  backend_name(example.a), components_text(d.scalar, d.a.data(), d.components),
                                  backend_name(example.b), components_text(d.scalar, d.b.data(), d.components));
+  if (!d.cause.empty()) text += fmt::format("    {}: {}\n", place_text(d.statement), d.cause);
   for (const LintFinding& finding : findings_at(shader, d.statement)) text += "    " + describe(finding) + "\n";
   return text;
 }
@@ -117,6 +118,7 @@ Json line_json(const CheckedShader& shader, const Counterexample& example) {
           {"occurrence", d.occurrence},
           {"a", values(d.a)},
           {"b", values(d.b)},
+          {"cause", d.cause.empty() ? Json(nullptr) : Json(d.cause)},
           {"findings", findings_json(findings_at(shader, d.statement))}};
 }
 

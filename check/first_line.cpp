@@ -46,6 +46,11 @@ bool same(const TracedValue& a, const TracedValue& b) {
   return true;
 }
 
+// Of a float that is converted to "int", "ivec3", "uint" ...
+bool is_in_range(float value, const std::string& type) {
+  return type[0] == 'u' ? value > -1 && value < 0x1p32f : value >= -0x1p31f && value < 0x1p31f;
+}
+
 class Tracer {
  public:
   Tracer(Evaluator& evaluator, const ValueTable& table, std::size_t row)
@@ -107,7 +112,7 @@ class Search {
     for (std::size_t t = 0; t < trace_.values.size(); ++t) {
       const std::size_t statement = statement_of(trace_.values[t]);
       std::vector<std::size_t>& of_statement = times_[statement];
-      if (of_statement.empty()) order_.push_back(statement);
+      if (of_statement.empty() && all_.statements[statement].converted_to.empty()) order_.push_back(statement);
       of_statement.push_back(t);
     }
   }
@@ -170,7 +175,25 @@ class Search {
     difference.components = x.components;
     difference.a = x.bits;
     difference.b = y.bits;
+    difference.cause = conversion_out_of_range(difference.statement, time);
     found_ = std::move(difference);
+  }
+
+  // On the lines of what differs, as they were executed last before it.
+  std::string conversion_out_of_range(const ProbedStatement& differing, std::size_t time) const {
+    for (const auto& [statement, times] : times_) {
+      const ProbedStatement& conversion = all_.statements[statement];
+      const bool is_there = !conversion.converted_to.empty() && conversion.file == differing.file &&
+                            conversion.line >= differing.line && conversion.last_line <= differing.last_line;
+      const auto behind = std::lower_bound(times.begin(), times.end(), time);
+      if (!is_there || behind == times.begin()) continue;
+      const TracedValue& operand = trace_.values[*std::prev(behind)];
+      for (std::uint32_t c = 0; c < operand.components; ++c)
+        if (!is_in_range(std::bit_cast<float>(operand.bits[c]), conversion.converted_to))
+          return conversion.converted_to + "() of " + value_text(Scalar::f32, operand.bits[c]) +
+                 ": GLSL leaves open what integer a float gives that is out of range or NaN: test or clamp it first";
+    }
+    return "";
   }
 
   // A statement tells of each of its values once in an execution.

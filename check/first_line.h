@@ -21,6 +21,7 @@ struct LineDifference {
   Scalar scalar = Scalar::f32;
   std::uint32_t components = 1;
   std::array<std::uint32_t, 4> a{}, b{};
+  std::string cause = {};  // where it is known, for the user: "int() of inf, ..."
 };
 
 struct FirstLine {

@@ -87,6 +87,7 @@ class Probe : public Listener {
       return;
     }
     arguments(e);
+    conversions(e);
     if (role == Role::condition || role == Role::selector) return condition(e, role);
     if (role == Role::result) {
       if (!e.operands.empty()) result(*e.operands[0]);
@@ -232,6 +233,21 @@ class Probe : public Listener {
         composed_argument(argument, what);
       else
         through(argument, what);
+    }
+  }
+
+  // Floats that become integers, but where a place is named: what is stored at an index that calls a function is not
+  // told.
+  void conversions(const Expression& e) {
+    for (std::size_t i = 0; i < e.operands.size(); ++i) {
+      const bool is_place = e.kind == Kind::assign ? i == 0 : i < e.written.size() && e.written[i];
+      if (!is_place) conversions(*e.operands[i]);
+    }
+    if (e.kind != Kind::construct || !e.type.is_integer() || e.type.array_dimensions > 0) return;
+    for (const ExpressionPtr& operand : e.operands) {
+      const std::size_t before = statements_.size();
+      if (operand->type.is_floating() && !operand->constant) through(*operand, e.text + "()");
+      if (statements_.size() > before) statements_.back().converted_to = e.text;
     }
   }
 

@@ -17,6 +17,8 @@ struct ProbedStatement {
   int line = 0, last_line = 0;
   std::string what;       // "sum", "v.xy, i", "condition", "result of f", "argument 1 of f"
   bool computes = false;  // with floats; else it copies or is about integers alone
+  // "int", "uvec2": no statement, but floats within one that are converted to this. Else empty.
+  std::string converted_to = {};
 };
 
 // A scalar, vector or matrix column that a statement tells of.

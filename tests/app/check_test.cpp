@@ -110,6 +110,30 @@ TEST_CASE("made exact, what is computed of constants is not blamed for what diff
   CHECK(run.json()["shaders"][0]["counterexample"]["first_line"]["line"] == 5);
 }
 
+TEST_CASE("a float out of range that is converted to an integer is named as the cause, by its value") {
+  if (!why_missing("egl").empty()) return;
+  const Folder folder;
+  const auto cause = [&](const std::string& statements, const std::vector<std::string>& more) {
+    const std::string shader = folder.file("converted.frag",
+                                           "in float a;  // @input a 1..2\nin float w;  // @input w {0}\n"
+                                           "out vec4 c;\nint floor_of(float x) {\n  return int(x);\n}\n"
+                                           "void main() {\n  int known = int(a);\n" +
+                                               statements + "\n}\n");
+    const nlohmann::json line =
+        run_twinshade(arguments(shader, more)).json()["shaders"][0]["counterexample"]["first_line"];
+    CAPTURE(line.dump());
+    return line["cause"].is_string() ? line["line"].dump() + ": " + line["cause"].get<std::string>() : line.dump();
+  };
+  for (const std::vector<std::string>& more : {std::vector<std::string>{}, std::vector<std::string>{"--make-exact"}}) {
+    CHECK(cause("  int i = int(a / w);\n  c = vec4(i, known, 0, 1);", more).starts_with("9: int() of inf"));
+    CHECK(cause("  if (uvec2(a, a - 8.0).y > 9u) c = vec4(1);\n  else c = vec4(a);", more)
+              .starts_with("9: uvec2() of -"));
+    CHECK(cause("  c = vec4(floor_of(a), floor_of(a / w), 0, 1);", more).starts_with("5: int() of inf"));
+    CHECK(cause("  float b = float(int(a * 1e20));\n  c = vec4(b);", more).starts_with("9: int() of 1"));
+  }
+  CHECK(cause("  int i = int(sin(a) * 1e6);\n  c = vec4(i);", {}).find("\"cause\":null") != std::string::npos);
+}
+
 TEST_CASE("JSON says what ran and which shader: instruction set, driver, hash; what was not measured is null") {
   if (!why_missing("egl").empty()) return;
   const Folder folder;

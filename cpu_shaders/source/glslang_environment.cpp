@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <regex>
 #include <sstream>
+#include <string_view>
 
 #include "cpu_shaders/source/glslang_built_ins.h"
 #include "cpu_shaders/source/line_names.h"
@@ -12,22 +13,34 @@ namespace {
 
 constexpr int kLatest = 450;
 
+struct Remedy {
+  std::string_view of, remedy;
+};
+
+// By what stands in a message.
+constexpr Remedy kRemedies[] = {
+    {"'packed' : not allowed when", "the layout of such a block is the driver's choice: write layout(std140)"},
+    {"'shared' : not allowed when", "the layout of such a block is the driver's choice: write layout(std140)"},
+    {"memory exhausted", "glslang's parser: nested too deep, or a chain too long; split it"},
+    {"'gl_FragColor' : undeclared", "of old GLSL: declare an output: out vec4 color;"},
+    {"'gl_FragData' : undeclared", "of old GLSL: declare an output: out vec4 color;"},
+    {"'varying' : ", "of old GLSL: write in"},
+    {"'attribute' : ", "an input of vertex shaders in old GLSL: write in"},
+    {"only allowed when using GLSL for Vulkan", "write sampler2D, an input or a uniform"},
+};
+
 // With the reason or a remedy where glslang gives none.
 std::string explained(const std::string& message) {
-  for (const char* layout : {"packed", "shared"})
-    if (message.find("'" + std::string(layout) + "' : not allowed when") != std::string::npos)
-      return message + " (the layout of such a block is the driver's choice: write layout(std140))";
-  if (message.find("memory exhausted") != std::string::npos)
-    return message + " (glslang's parser: nested too deep, or a chain too long; split it)";
-  for (const char* output : {"gl_FragColor", "gl_FragData"})
-    if (message.find("'" + std::string(output) + "' : undeclared") != std::string::npos)
-      return message + " (of old GLSL: declare an output: out vec4 color;)";
+  const auto with = [&](std::string_view remedy) { return message + " (" + std::string(remedy) + ")"; };
+  for (const Remedy& known : kRemedies)
+    if (message.find(known.of) != message.npos) return with(known.remedy);
   static const std::regex no_function(R"('(\w+)' : no matching overloaded function found)");
-  std::smatch match;
-  const bool left_out = std::regex_search(message, match, no_function) && is_left_out(match[1].str());
-  return !left_out
-             ? message
-             : match.prefix().str() + match.str() + " (of extensions none is translated: write it in other terms)";
+  static const std::regex old_texture("(texture|shadow)(1D|2D|3D|Cube)(\\w*)");
+  std::smatch match, old;
+  if (!std::regex_search(message, match, no_function)) return message;
+  const std::string function = match[1].str();
+  if (std::regex_match(function, old, old_texture)) return with("of old GLSL: write texture" + old[3].str());
+  return is_left_out(function) ? with("of extensions none is translated: write it in other terms") : message;
 }
 
 // Below 420, where glslang refuses a backslash that continues a line: joined, and as many lines after it empty.

@@ -39,10 +39,11 @@ std::string text_as_version(const ShaderSource& source, int version) {
   return glslang_text(expanded, version);
 }
 
-// glslang's log of linking names the function on its next line, and no place.
+// glslang's log of linking names the function without a body on its next line, and no place.
 std::string link_error(const ShaderSource& source, const std::string& log) {
   static const std::regex without_body(R"(No function definition \(body\) found:\s*(\w+)\()");
   std::smatch match;
+  if (log.find("Missing entry point") != log.npos) return source.files.at(0) + ": the shader has no main()";
   if (!std::regex_search(log, match, without_body)) return first_glslang_error(source, log.c_str());
   const std::string name = match[1];
   return SourceLines(source).mention({name}).text() + ": " + name + "() is declared and called, but has no body";

@@ -59,6 +59,18 @@ TEST_CASE("declarations that cannot be bound are refused by name") {
 }
 
 // In all versions, whose tables of functions are made one by one; whether or not the extension is asked for.
+TEST_CASE("what is of old GLSL or of GLSL for Vulkan is refused with what to write instead") {
+  check_refused("varying vec2 uv;\nvoid main() {}\n", 1, "(of old GLSL: write in)");
+  check_refused("attribute vec2 uv;\nvoid main() {}\n", 1, "write in)");
+  const std::string map = "uniform sampler2D map;\n";
+  check_refused(kHead + map + "void main() { color = texture2D(map, vec2(0)); }\n", 4, "(of old GLSL: write texture)");
+  check_refused(kHead + map + "void main() { color = texture2DProjLod(map, vec3(0), 0.); }\n", 4,
+                "write textureProjLod)");
+  check_refused(kHead + "layout(input_attachment_index = 0) uniform subpassInput last;\nvoid main() {}\n", 3,
+                "(write sampler2D, an input or a uniform)");
+  CHECK(refusal(kHead + "void mainImage() { color = vec4(1); }\n") == "bad.frag: the shader has no main()");
+}
+
 TEST_CASE("functions of extensions are refused with the reason, and one's own may have their names") {
   const std::string es = "#version 310 es\nprecision highp float; out vec4 color;\n",
                     reason = " (of extensions none is translated";

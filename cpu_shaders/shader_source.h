@@ -33,8 +33,8 @@ void require_define(const std::string& define);
 
 // Searches, in order: the folder of the including file, then the folders of the options, then the built-in shaders
 // (embedded in the binary, addressed as "exact/dot.glsl", "basis/sh.glsl" ...). Include once per file: a second
-// #include of the same file is empty. UserError "file:line: cannot include "x": not found in ..." ; include loops are
-// impossible by construction. UserError where the file's name ends like those of other stages (.vert, .geom ...).
+// #include of the same file is empty, but of a list of macro calls (source/macro_list.h). UserError "file:line: cannot
+// include "x": not found in ..." and where includes go deeper than 100, as loops do. UserError where the file's name ends like those of other stages (.vert, .geom ...).
 ShaderSource load_shader(const std::string& path, const SourceOptions& options = {});
 // UserError where an include folder that someone names ("builtin:...": of the shaders in the program) does not exist.
 void require_include_folder(const std::string& folder);

@@ -17,6 +17,7 @@
 #include "cpu_shaders/source/directive_scan.h"
 #include "cpu_shaders/source/find_word.h"
 #include "cpu_shaders/source/line_names.h"
+#include "cpu_shaders/source/macro_list.h"
 #include "cpu_shaders/source/preprocess.h"
 #include "cpu_shaders/source/vulkan_layouts.h"
 
@@ -297,7 +298,8 @@ class Resolver {
     File file = find(from, wanted, where);
     if (line.comments.find("*/") != std::string::npos) body_ += line.comments + '\n';
     unite_with_builtin(file);
-    if (std::find(identities_.begin(), identities_.end(), file.identity) == identities_.end()) {
+    const bool is_new = std::find(identities_.begin(), identities_.end(), file.identity) == identities_.end();
+    if (is_new || is_list_of_macro_calls(file.text)) {
       if (++depth_ > kMostIncludes)
         throw UserError(where + "files are included more than " + std::to_string(kMostIncludes) + " deep");
       resolve(std::move(file));

@@ -11,6 +11,7 @@
 #include "cpu_shaders/source/builtin_shaders.h"
 #include "cpu_shaders/source/glsl_tokens.h"
 #include "cpu_shaders/source/line_names.h"
+#include "cpu_shaders/source/macro_list.h"
 #include "cpu_shaders/source/preprocess.h"
 
 using namespace twinshade;
@@ -287,6 +288,33 @@ TEST_CASE("a file that includes itself is included once") {
   const std::string main =
       folder.write("loop.frag", "#include \"loop.frag\"\n#include \"./inner/../loop.frag\"\nfloat once;\n");
   CHECK(count_of(load_shader(main).text, "float once") == 1);
+}
+
+TEST_CASE("a list of macro calls is included again, for the macros that are there then") {
+  Folder folder;
+  folder.write("lights.def", "// all lights\nLIGHT(sun, (1 + 1))\nLIGHT(sky, 3);\n");
+  folder.write("part.glsl", "float part() { return 1.0; }\n");
+  const std::string main =
+      folder.write("main.frag",
+                   "#define LIGHT(name, n) const int name = n;\n#include \"lights.def\"\n#undef LIGHT\n"
+                   "#define LIGHT(name, n) + name\nconst int all = 0\n#include \"lights.def\"\n"
+                   "#include \"part.glsl\"\n#include \"part.glsl\"\nfloat marker;\n");
+  const ShaderSource source = load_shader(main);
+  CHECK(count_of(source.text, "LIGHT(sun, (1 + 1))") == 2);
+  CHECK(count_of(source.text, "float part()") == 1);
+  CHECK(reported_position(source.text, "marker") == '"' + main + "\":9");
+  folder.write("endless.def", "X(1)\n#include \"endless.def\"\n");
+  CHECK(error_of([&] {
+          load_shader(folder.write("endless.frag", "#define X(n)\n#include \"endless.def\"\n"));
+        }).find("more than 100 deep") != std::string::npos);
+}
+
+TEST_CASE("files of macro calls alone are told from others") {
+  for (const char* text : {"X(1)", "X(a, f(b)); X(c),\n// d\nX(/* e */ g)\n#undef X\n"})
+    CHECK_MESSAGE(is_list_of_macro_calls(text), text);
+  for (const char* text : {"", "#define X 1\n", "float f(int);", "X", "X(1", "f(1) g", "const float pi = 3.14;",
+                           "#pragma once\nX(1)\n", "X(1) { }"})
+    CHECK_FALSE_MESSAGE(is_list_of_macro_calls(text), text);
 }
 
 TEST_CASE("driver logs are mapped back to files") {

@@ -1,6 +1,8 @@
 #include "cpu_shaders/translate/limits.h"
 
 #include <algorithm>
+#include <map>
+#include <string>
 
 #include "base/error.h"
 #include "cpu_shaders/translate/source_lines.h"
@@ -26,6 +28,22 @@ std::uint64_t number_count(const spirv::Module& module, spirv::Id id) {
       sum = 1;
   }
   return std::min(sum, kMany);
+}
+
+// Of variables, what is worth putting elsewhere than into a variable.
+constexpr std::uint64_t kLargeTable = 1024;
+
+struct Largest {
+  std::string name;
+  Position position;
+  std::uint64_t count = 0;
+
+  bool is_less(std::uint64_t other) const { return name.empty() || count < other; }
+};
+
+// A variable of a function that takes room in the result.
+bool is_kept(const spirv::FunctionInfo& info, spirv::Id local) {
+  return info.constant_tables.count(local) == 0 && info.argument_temporaries.count(local) == 0;
 }
 
 }  // namespace
@@ -60,25 +78,61 @@ void refuse_large_text(const ShaderSource& source) {
 
 void refuse_large_variables(const spirv::Program& program, const SourceLines& lines) {
   const spirv::Module& module = program.module;
-  std::uint64_t sum = 0;
-  const auto add = [&](spirv::Id id, const Position& position) {
-    const std::uint64_t count = number_count(module, module.variables.at(id).type);
-    sum += count;
-    if (sum > kMostNumbers)
-      throw UserError(position.text() + ": " + (module.name(id).empty() ? "a value" : module.name(id)) + " has " +
-                      std::to_string(count) + " numbers, and the variables of a shader at most " +
-                      std::to_string(kMostNumbers) + " together: put large tables into a texture or a buffer");
-  };
+  std::uint64_t globals = 0;
+  Largest variable;
   for (const spirv::Id id : module.globals) {
     const spv::StorageClass storage = module.variables.at(id).storage;
-    if (storage == spv::StorageClassPrivate || storage == spv::StorageClassOutput || storage == spv::StorageClassInput)
-      add(id, lines.declaration(module.name(id)));
+    if (storage != spv::StorageClassPrivate && storage != spv::StorageClassOutput && storage != spv::StorageClassInput)
+      continue;
+    const std::uint64_t count = number_count(module, module.variables.at(id).type);
+    globals += count;
+    if (variable.is_less(count)) variable = {module.name(id), lines.declaration(module.name(id)), count};
   }
-  for (const spirv::Id function : program.callees_first) {
-    const spirv::FunctionInfo& info = program.info(function);
-    for (const spirv::Id local : info.locals)
-      if (!info.constant_tables.count(local)) add(local, module.position(info.function->file, info.function->line));
+
+  // Those of functions that do not call each other take the same place one after another.
+  struct Calls {
+    std::uint64_t own = 0, all = 0;  // numbers of the function, and with the most that it calls
+    const Calls* most = nullptr;     // the call that needs the most
+    const spirv::FunctionInfo* info = nullptr;
+  };
+  std::map<spirv::Id, Calls> functions;
+  const Calls* main = nullptr;
+  for (const spirv::Id id : program.callees_first) {
+    Calls& calls = functions[id];
+    calls.info = &program.info(id);
+    for (const spirv::Id local : calls.info->locals)
+      if (is_kept(*calls.info, local)) calls.own += number_count(module, module.variables.at(local).type);
+    for_each_instruction(calls.info->body.list, [&](const spirv::Instruction& i) {
+      if (i.op != spv::OpFunctionCall) return;
+      const Calls& callee = functions.at(i.operands[0]);
+      if (calls.most == nullptr || callee.all > calls.most->all) calls.most = &callee;
+    });
+    calls.all = calls.own + (calls.most != nullptr ? calls.most->all : 0);
+    main = &calls;
   }
+  if (globals + main->all <= kMostNumbers) return;
+
+  Largest function;
+  for (const Calls* calls = main; calls != nullptr; calls = calls->most) {
+    const spirv::FunctionInfo& info = *calls->info;
+    const Position position = module.position(info.function->file, info.function->line);
+    if (function.is_less(calls->own)) function = {info.function->name, position, calls->own};
+    for (const spirv::Id local : info.locals) {
+      const std::uint64_t count = number_count(module, module.variables.at(local).type);
+      const bool has_name = !module.name(local).empty() && info.parameter_of.count(local) == 0;
+      if (is_kept(info, local) && has_name && variable.is_less(count)) variable = {module.name(local), position, count};
+    }
+  }
+  const std::string most = " numbers, and the variables of a shader at most " + std::to_string(kMostNumbers);
+  if (variable.count >= kLargeTable)
+    throw UserError(variable.position.text() + ": " + variable.name + " has " + std::to_string(variable.count) + most +
+                    " together: put large tables into a texture or a buffer");
+  if (globals > main->all)
+    throw UserError(variable.position.text() + ": the global variables have " + std::to_string(globals) + most +
+                    " together: use fewer or smaller ones; " + variable.name + " is the largest");
+  throw UserError(function.position.text() + ": the variables of " + function.name + " have " +
+                  std::to_string(function.count) + most + ", of functions that call each other (" +
+                  std::to_string(globals + main->all) + " here): use fewer or smaller ones");
 }
 
 }  // namespace twinshade

@@ -61,6 +61,32 @@ TEST_CASE("huge variables are refused by name, huge texts by size") {
             .find("at most 4194304") != std::string::npos);
 }
 
+TEST_CASE("of the variables of functions those count that are there at once; the function that has the most is named") {
+  const auto functions = [](int count, bool nested) {
+    std::string text = "#version 450\nin float x; flat in int n; out vec4 color;\n", calls;
+    for (int k = 0; k < count; ++k) {
+      const std::string number = std::to_string(k), array = std::to_string(k == 7 ? 601 : 600);
+      text += "float f" + number + "(inout vec3 v) { float t[" + array + "]; t[n] = v.x; " +
+              (nested && k > 0 ? "v.y += f" + std::to_string(k - 1) + "(v); " : "") + "return t[n + 1]; }\n";
+      if (!nested || k + 1 == count) calls += "  color.x += f" + number + "(color.xyz);\n";
+    }
+    return refusal(shader(text + "void main() {\n  color = vec4(x);\n" + calls + "}\n"));
+  };
+  CHECK(functions(200, false) == "");
+  CHECK(functions(50, true) == "");
+  const std::string message = functions(60, true);
+  CHECK_MESSAGE(message.starts_with("hostile.frag:10: the variables of f7 have 6"), message);
+  CHECK_MESSAGE(message.find("32768, of functions that call each other") != std::string::npos, message);
+  std::string many;
+  for (int k = 0; k < 70; ++k) many += "float g" + std::to_string(k) + "[500];\n";
+  std::string used;
+  for (int k = 0; k < 70; ++k)
+    used += "g" + std::to_string(k) + "[n] = x; color.x += g" + std::to_string(k) + "[n + 1];\n";
+  const std::string of_globals = refusal(
+      shader("#version 450\nin float x; flat in int n; out vec4 color;\n" + many + "void main() {\n" + used + "}\n"));
+  CHECK_MESSAGE(of_globals.starts_with("hostile.frag:3: the global variables have 35"), of_globals);
+}
+
 TEST_CASE("files that include each other end, chains of thousands are refused at the line that goes too far") {
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / "twinshade_hostile_includes";
   std::filesystem::create_directories(folder);

@@ -12,6 +12,9 @@
 #include "app/memory_needed.h"
 #include "base/error.h"
 #include "base/names.h"
+#include "bundle/uniform_text.h"
+#include "cpu_shaders/translate/source_lines.h"
+#include "cpu_shaders/translate/translate.h"
 #include "lighting/bake.h"
 #include "lighting/environment_light.h"
 #include "lighting/visibility_textures.h"
@@ -78,6 +81,23 @@ std::vector<LitTechnique> coefficients_read(const std::string& text, const Scene
     if (names(text, "volume_" + name)) read.push_back({&technique, CoefficientStorage::volume});
   }
   return read;
+}
+
+// A uniform of a user's shader that nothing gives a value is refused before the scene is lit: that takes long. The only
+// ones of scenes are those of baked light.
+void require_initial_values(const ShaderSource& source, const std::vector<LitTechnique>& baked) {
+  Reflection reflection;
+  try {
+    reflection = translate(source).reflection;
+  } catch (const UserError&) {  // OpenGL alone may take it
+  }
+  for (const ReflectedUniform& u : reflection.uniforms) {
+    const bool of_light = !baked.empty() && (u.name.starts_with("volume_") || u.name.starts_with("light_"));
+    if (of_light || !u.initial.empty()) continue;
+    throw UserError(SourceLines(source).declaration(u.name.substr(0, u.name.find_first_of(".["))).text() +
+                    ": uniform \"" + u.name + "\" is none of a scene's and has no initial value: " +
+                    initial_value_remedy(u.name, u.scalar, u.columns, u.rows, u.array_length));
+  }
 }
 
 // Whether a bundle has what a technique reads from a storage. A technique that is no basis of its own may read
@@ -306,7 +326,7 @@ Subject load_subject(const SubjectOptions& options, const ShadingOptions& shadin
                      const Output& output, const std::string& written) {
   // Names and shaders are checked before anything that takes long.
   const bool own_shader = !shading.shader.empty();
-  const std::string text = own_shader ? load_fragment_shader(shading.shader, shading.source).text : "";
+  const ShaderSource source = own_shader ? load_fragment_shader(shading.shader, shading.source) : ShaderSource();
   const std::vector<const TechniqueInfo*> chosen =
       own_shader ? std::vector<const TechniqueInfo*>() : chosen_techniques(shading);
   chosen_maps(shading);
@@ -338,7 +358,9 @@ Subject load_subject(const SubjectOptions& options, const ShadingOptions& shadin
                                       ? " has no lightmap; use --light vertex"
                                       : " has no surfaces in the world whose visibility could be baked");
         });
-    const std::vector<LitTechnique> baked = own_shader ? coefficients_read(text, scene, shading.light) : subject.drawn;
+    const std::vector<LitTechnique> baked =
+        own_shader ? coefficients_read(source.text, scene, shading.light) : subject.drawn;
+    if (own_shader) require_initial_values(source, baked);
     require_lightmap_memory(options, baked);
     require_vertex_memory(scene.positions.size(), baked);
     subject.bundle = bundle_from_scene(options, shading, scene, baked, common, output);

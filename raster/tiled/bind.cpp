@@ -6,27 +6,13 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "bundle/uniform_text.h"
 #include "raster/tiled/tiled_renderer.h"
 
 namespace twinshade::tiled {
 namespace {
 
 std::string quoted(std::string_view name) { return '"' + std::string(name) + '"'; }
-
-// The GLSL spelling: "vec3", "ivec2", "mat4x3", "float[5]".
-std::string type_name(Scalar scalar, std::uint32_t columns, std::uint32_t rows, std::uint32_t array_length) {
-  static constexpr const char* kScalars[] = {"float", "int", "uint", "bool"};
-  static constexpr const char* kPrefixes[] = {"", "i", "u", "b"};
-  std::string name = columns > 1 ? "mat" : kPrefixes[int(scalar)];
-  if (columns > 1)
-    name.append(std::to_string(columns)).append("x").append(std::to_string(rows));
-  else if (rows > 1)
-    name.append("vec").append(std::to_string(rows));
-  else
-    name = kScalars[int(scalar)];
-  if (array_length > 0) name.append("[").append(std::to_string(array_length)).append("]");
-  return name;
-}
 
 // "the bundle has a, b, c" or "the bundle has none".
 template <class T>
@@ -106,9 +92,9 @@ class Binder {
     if (!attribute)
       fail(input.name, "input " + quoted(name) + " is not in the bundle; " + inventory(bundle_.attributes));
     if (attribute->scalar != input.scalar || attribute->components != input.rows)
-      fail(input.name, "input " + quoted(name) + " is declared " + type_name(input.scalar, 1, input.rows, 0) +
+      fail(input.name, "input " + quoted(name) + " is declared " + glsl_type(input.scalar, 1, input.rows, 0) +
                            ", but the bundle's attribute is " +
-                           type_name(attribute->scalar, 1, attribute->components, 0));
+                           glsl_type(attribute->scalar, 1, attribute->components, 0));
     const std::size_t stride = module_.input_components;
     for (std::size_t v = 0; v < bundle_.vertex_count(); ++v)
       std::copy_n(&attribute->values[v * input.rows], input.rows, &draw_.vertex_inputs[v * stride + component]);
@@ -130,10 +116,12 @@ class Binder {
         continue;
       }
       if (!uniform)
-        fail(wanted.name, "uniform " + quoted(wanted.name) + " is not in the bundle and has no initial value; " +
-                              inventory(bundle_.uniforms));
-      const std::string wanted_type = type_name(wanted.scalar, wanted.columns, wanted.rows, wanted.array_length);
-      const std::string type = type_name(uniform->scalar, uniform->columns, uniform->rows, uniform->array_length);
+        fail(wanted.name,
+             "uniform " + quoted(wanted.name) + " is not in the bundle and has no initial value: " +
+                 initial_value_remedy(wanted.name, wanted.scalar, wanted.columns, wanted.rows, wanted.array_length) +
+                 "; " + inventory(bundle_.uniforms));
+      const std::string wanted_type = glsl_type(wanted.scalar, wanted.columns, wanted.rows, wanted.array_length);
+      const std::string type = glsl_type(uniform->scalar, uniform->columns, uniform->rows, uniform->array_length);
       if (type != wanted_type)
         fail(wanted.name,
              "uniform " + quoted(wanted.name) + " is declared " + wanted_type + ", but the bundle's is " + type);

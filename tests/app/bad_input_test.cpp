@@ -309,6 +309,17 @@ TEST_CASE("a shader that reads what the scene does not have is refused, naming i
   const Folder folder;
   const std::string shader =
       folder.file("wants.frag", "in vec2 v_warp;\nout vec4 color;\nvoid main() { color = vec4(v_warp, 0.0, 1.0); }\n");
+  const std::string timed = folder.file("timed.frag",
+                                        "out vec4 color;\nuniform float unused; uniform vec3 tint = vec3(2);\n"
+                                        "uniform float time;\nvoid main() { color = vec4(tint, time); }\n");
+  for (const char* verb : {"render", "compare"}) {
+    const Run run = run_twinshade(small_quad({verb}, {"--shader", timed}));
+    CHECK(run.code == 2);
+    CHECK_MESSAGE(run.err.find("timed.frag:3: uniform \"time\" is none of a scene's and has no initial value: write "
+                               "\"uniform float time = 1.0;\"") != std::string::npos,
+                  run.err);
+    CHECK(run.err.find("baking") == std::string::npos);
+  }
   check_refused(small_quad({"render"}, {"--shader", shader}), {"wants.frag:1: input \"v_warp\"", "v_uv"});
   check_refused(small_quad({"compare"}, {"--shader", shader, "--on", "cpu,egl"}), {"wants.frag:1", "v_warp"});
   const std::string light = folder.file("light.frag",

@@ -131,7 +131,9 @@ TEST_CASE("what is missing or of another type is named, with what the bundle has
     return error_of([&] { color_of(bundle, "out vec4 c;\n" + text); });
   };
   CHECK(error("uniform vec3 g;\nvoid main() { c = vec4(g, 1); }\n") ==
-        "test.frag: uniform g (vec3) is not in the bundle, which has: f, k");
+        "test.frag: uniform g (vec3) is not in the bundle, which has: f, k; it has no initial value: write \"uniform "
+        "vec3 "
+        "g = vec3(1.0);\" (in GLSL ES \"const vec3 g = vec3(1.0);\")");
   CHECK(error("uniform vec3 f;\nvoid main() { c = vec4(f, 1); }\n") ==
         "test.frag: uniform f (vec3) is float in the bundle");
   CHECK(error("uniform float k[3];\nvoid main() { c = vec4(k[2]); }\n") ==

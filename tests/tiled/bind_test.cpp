@@ -114,8 +114,14 @@ TEST_CASE("uniforms land at their offsets and strides") {
         "shader \"wishes\": uniform \"k\" is declared mat2x2[3], but the bundle's is mat2x2[2]");
   wishes.uniforms = {{"exposure", Scalar::f32, 1, 1, 0, 0, 0, 0}};
   CHECK(complaint(bundle, wishes) ==
-        "shader \"wishes\": uniform \"exposure\" is not in the bundle and has no initial value; the bundle has "
-        "light.colour, k[0], n");
+        "shader \"wishes\": uniform \"exposure\" is not in the bundle and has no initial value: write \"uniform "
+        "float exposure = 1.0;\" (in GLSL ES \"const float exposure = 1.0;\"); the bundle has light.colour, k[0], n");
+  wishes.uniforms = {{"tint", Scalar::i32, 1, 3, 0, 0, 0, 0}};
+  CHECK(complaint(bundle, wishes).find("write \"uniform ivec3 tint = ivec3(1);\"") != std::string::npos);
+  wishes.uniforms = {{"sun.tint", Scalar::f32, 1, 3, 0, 0, 0, 0}};
+  CHECK(
+      complaint(bundle, wishes).find("no initial value: give it one in the shader (in GLSL ES make it a constant); ") !=
+      std::string::npos);
 }
 
 TEST_CASE("textures and buffers must be of the kind and size that the shader declares") {

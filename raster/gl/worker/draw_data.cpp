@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "bundle/uniform_text.h"
 #include "raster/gl/extended_products.h"
 #include "raster/gl/generated_shaders.h"
 #include "raster/gl/worker/failure.h"
@@ -219,7 +220,9 @@ void DrawData::bind_uniform(const ActiveUniform& uniform, const DrawRequest& req
     const std::string variable = uniform.name.substr(0, uniform.name.find_first_of(".["));
     const auto& own = request.initialized;
     if (std::find(own.begin(), own.end(), variable) != own.end()) return;
-    missing(wanted, names_of(request.uniforms));
+    missing(wanted,
+            names_of(request.uniforms) + "; it has no initial value: " +
+                initial_value_remedy(uniform.name, type.scalar, type.columns, type.rows, uniform.array ? 1 : 0));
   }
   if (value->scalar != type.scalar || value->columns != type.columns || value->rows != type.rows)
     throw Failure(Outcome::user_error,

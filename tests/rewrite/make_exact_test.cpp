@@ -402,6 +402,20 @@ TEST_CASE("what a later version than 4.50 allows is still allowed") {
   CHECK_NOTHROW(compile_glsl(add_probes(later).source));
 }
 
+TEST_CASE("an included file that its includer's macros make what it is stays behind them") {
+  const ShaderSource source = resolve_shader("t",
+                                             "uniform sampler2DArray maps; in vec2 uv; out vec4 c;\n"
+                                             "#define FETCHED_COLORS 3\n#include \"exact/fetch_colors.glsl\"\n"
+                                             "void main() {\n  vec3 colors[FETCHED_COLORS];\n"
+                                             "  exact_fetch_colors(maps, exact_taps_clamp(uv, ivec2(8)), colors);\n"
+                                             "  c = vec4(colors[0] * colors[1] + colors[2], 1.0);\n}\n",
+                                             "t.frag");
+  const ExactShader exact = make_exact(source);
+  CHECK_NOTHROW(compile_glsl(exact.source));
+  CHECK(exact.left.empty());
+  CHECK_NOTHROW(compile_glsl(add_probes(exact.source).source));
+}
+
 TEST_CASE("a shader that includes exact functions itself gets each once") {
   CHECK(left_of("color.x = exact_dot(a, b) + exact_length(a);", "#include \"exact/length.glsl\"\n") == "");
 }

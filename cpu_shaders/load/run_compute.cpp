@@ -19,20 +19,23 @@
 namespace twinshade {
 namespace {
 
-constexpr std::size_t kStackBytes = 256 << 10;  // of a fiber; touched pages alone cost memory
+// Of a fiber, for each lane: twice what variables may take (translate/limits.h). Touched pages alone cost memory.
+constexpr std::size_t kStackBytes = 256 << 10;
 
 class Stack {
  public:
-  Stack() {
-    base_ = mmap(nullptr, kStackBytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  explicit Stack(std::size_t bytes) : bytes_(bytes) {
+    base_ = mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (base_ == MAP_FAILED) throw std::system_error(errno, std::generic_category(), "no memory for a work group");
   }
-  ~Stack() { munmap(base_, kStackBytes); }
+  ~Stack() { munmap(base_, bytes_); }
   Stack(const Stack&) = delete;
   Stack& operator=(const Stack&) = delete;
   void* base() const { return base_; }
+  std::size_t bytes() const { return bytes_; }
 
  private:
+  const std::size_t bytes_;
   void* base_ = nullptr;
 };
 
@@ -77,7 +80,7 @@ class WorkGroup {
       block.where.shared = reinterpret_cast<std::byte*>(shared_.data());
       block.where.barrier = &WorkGroup::barrier;
       block.where.barrier_context = this;
-      if (module.uses_barrier) block.stack = std::make_unique<Stack>();
+      if (module.uses_barrier) block.stack = std::make_unique<Stack>(kStackBytes * lanes_);
     }
   }
 
@@ -122,7 +125,7 @@ class WorkGroup {
   void start(Block& block) {
     getcontext(&block.context);
     block.context.uc_stack.ss_sp = block.stack->base();
-    block.context.uc_stack.ss_size = kStackBytes;
+    block.context.uc_stack.ss_size = block.stack->bytes();
     block.context.uc_link = &scheduler_;
     // makecontext passes ints only.
     const auto address = reinterpret_cast<std::uintptr_t>(&block);

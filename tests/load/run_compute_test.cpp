@@ -67,6 +67,25 @@ void main() {
   }
 }
 
+TEST_CASE("invocations that meet at barriers may have as large variables as others") {
+  const ShaderSource source = compute_shader(R"(#version 450
+layout(local_size_x = 24) in;
+layout(std430) buffer Data { uint data[]; };
+shared uint first;
+void main() {
+  uint list[30000];
+  for (uint k = 0u; k < 30000u; ++k) list[k] = k * gl_LocalInvocationIndex;
+  if (gl_LocalInvocationIndex == 0u) first = data[0];
+  barrier();
+  data[gl_LocalInvocationIndex] = list[first];
+}
+)");
+  for (const Number number : {Number::scalar, Number::lanes4}) {
+    const std::vector<std::uint32_t> after = run(source, number, std::vector<std::uint32_t>(24, 29999), {1, 1, 1});
+    for (std::uint32_t i = 0; i < after.size(); ++i) CHECK(after[i] == 29999 * i);
+  }
+}
+
 TEST_CASE("denormals stay in compute shaders") {
   const ShaderSource source = compute_shader(R"(#version 310 es
 layout(local_size_x = 4) in;

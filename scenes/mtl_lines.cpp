@@ -96,9 +96,32 @@ std::string undrawn(const std::string& keyword, const std::string& rest) {
   return "";
 }
 
+// The lines of `newmtl` whose materials have a picture of colours and no colour beside it.
+std::set<std::size_t> colourless(const std::string& library) {
+  std::set<std::size_t> lines_found;
+  std::size_t material = 0;
+  bool has_picture = false, has_colour = false;
+  const auto end = [&] {
+    if (has_picture && !has_colour) lines_found.insert(material);
+  };
+  for (ObjLines lines(library); lines.next();) {
+    std::string rest(lines.statement());
+    const std::string keyword = lower_case(take_word(rest));
+    has_picture |= keyword == "map_kd";
+    has_colour |= keyword == "kd";
+    if (keyword != "newmtl") continue;
+    end();
+    material = std::size_t(lines.number());
+    has_picture = has_colour = false;
+  }
+  end();
+  return lines_found;
+}
+
 }  // namespace
 
 std::string plain_materials(const std::string& library, const std::string& path, std::set<std::string>& notes) {
+  const std::set<std::size_t> without_colour = colourless(library);
   std::set<std::string> ignored;
   std::string text;
   for (ObjLines lines(library); lines.next(); text += '\n') {
@@ -108,6 +131,8 @@ std::string plain_materials(const std::string& library, const std::string& path,
     const std::string first = lower_case(take_word(words));
     if (lower == "newmtl") {
       text += keyword + ' ' + rest;
+      // assimp's colour, where there is none, is grey and would darken the picture.
+      if (without_colour.count(std::size_t(lines.number())) != 0) text += "\nKd 1 1 1";
     } else if (lower == "kd" && (first == "xyz" || first == "spectral")) {
       notes.insert("colours as " + first + " are ignored: their materials are plain");
     } else if (lower == "kd") {

@@ -74,6 +74,13 @@ TEST_CASE("a colour of one number is grey, of three as they are; others are refu
                        "transparent materials are drawn opaque"});
 }
 
+TEST_CASE("a picture of colours without a colour beside it is drawn as it is") {
+  Notes notes;
+  CHECK(plain("newmtl a\nmap_Kd a.png\nnewmtl b\nmap_Kd b.png\nKd 0.5\nnewmtl c\nnewmtl d\n MAP_KD d.png\n", notes) ==
+        "newmtl a\nKd 1 1 1\nmap_Kd a.png\nnewmtl b\nmap_Kd b.png\nKd 0.5 0.5 0.5\nnewmtl c\nnewmtl d\nKd 1 1 1\n"
+        "MAP_KD d.png\n");
+}
+
 TEST_CASE("an OBJ's texture is found behind its options and before blanks; what is ignored is said") {
   TemporaryFolder folder;
   write_image(folder.name("c.png"), 1, 1, 3, std::vector<std::uint8_t>{9, 90, 200});

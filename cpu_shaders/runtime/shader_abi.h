@@ -10,7 +10,7 @@
 
 namespace twinshade {
 
-inline constexpr std::uint32_t kAbiVersion = 9;
+inline constexpr std::uint32_t kAbiVersion = 10;
 
 // What a piece of translated code was built for. The numbers are an order: a machine that has avx512 has all before it.
 enum class Isa : std::uint8_t { baseline = 0, avx2 = 1, avx512 = 2 };  // baseline: x86-64-v2, or AArch64 with NEON
@@ -147,7 +147,7 @@ struct ShaderModule {
   const ShaderResource* resources;
   std::uint32_t resource_count, texture_count, buffer_count;
   bool discards, writes_depth, has_side_effects, uses_derivatives, uses_frag_coord, uses_front_facing,
-      uses_primitive_id;
+      uses_primitive_id, uses_helper_invocation;
   const char* no_float64_reason;  // null, or why there is no float64 entry ("file:line: floatBitsToInt ...")
   const ShaderEntry* entries;
   std::uint32_t entry_count;

@@ -143,17 +143,18 @@ TWINSHADE_INLINE CubeFace<F> cube_face(const vec<F, 3>& p) {
 
 namespace glsl {
 
-template <class Real>
-TWINSHADE_INLINE vec<Plain<std::int32_t, 1>, 2> textureSize(Sampler2D<Real> s, Plain<std::int32_t, 1> = 0) {
+// Of the one level, whichever is asked for.
+template <class Real, class Lod = Plain<std::int32_t, 1>>
+TWINSHADE_INLINE vec<Plain<std::int32_t, 1>, 2> textureSize(Sampler2D<Real> s, const Lod& = {}) {
   return {Plain<std::int32_t, 1>(s.view->width), Plain<std::int32_t, 1>(s.view->height)};
 }
-template <class Real>
-TWINSHADE_INLINE vec<Plain<std::int32_t, 1>, 3> textureSize(Sampler2DArray<Real> s, Plain<std::int32_t, 1> = 0) {
+template <class Real, class Lod = Plain<std::int32_t, 1>>
+TWINSHADE_INLINE vec<Plain<std::int32_t, 1>, 3> textureSize(Sampler2DArray<Real> s, const Lod& = {}) {
   return {Plain<std::int32_t, 1>(s.view->width), Plain<std::int32_t, 1>(s.view->height),
           Plain<std::int32_t, 1>(s.view->layers)};
 }
-template <class Real>
-TWINSHADE_INLINE vec<Plain<std::int32_t, 1>, 2> textureSize(SamplerCube<Real> s, Plain<std::int32_t, 1> = 0) {
+template <class Real, class Lod = Plain<std::int32_t, 1>>
+TWINSHADE_INLINE vec<Plain<std::int32_t, 1>, 2> textureSize(SamplerCube<Real> s, const Lod& = {}) {
   return {Plain<std::int32_t, 1>(s.view->width), Plain<std::int32_t, 1>(s.view->height)};
 }
 

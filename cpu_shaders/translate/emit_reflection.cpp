@@ -133,7 +133,7 @@ std::string reflection_text(const Reflection& r, const ShaderSource& source, con
          ", /*has_side_effects*/ " + boolean(r.has_side_effects) + ", /*uses_derivatives*/ " +
          boolean(r.uses_derivatives) + ",\n    /*uses_frag_coord*/ " + boolean(r.uses_frag_coord) +
          ", /*uses_front_facing*/ " + boolean(r.uses_front_facing) + ", /*uses_primitive_id*/ " +
-         boolean(r.uses_primitive_id) + ",\n";
+         boolean(r.uses_primitive_id) + ", /*uses_helper_invocation*/ " + boolean(r.uses_helper_invocation) + ",\n";
     m += "    " + (r.no_float64_reason.empty() ? std::string("nullptr") : quoted(r.no_float64_reason)) + ",\n    " +
          entries + compute_fields(r) + "};\n";
     return m;

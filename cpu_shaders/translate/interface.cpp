@@ -137,6 +137,8 @@ class Describer {
           reflection_.uses_primitive_id = true;
           return;
         case spv::BuiltInHelperInvocation:
+          reflection_.uses_helper_invocation = true;
+          return;
         case spv::BuiltInSampleId:
         case spv::BuiltInSamplePosition:
         case spv::BuiltInSampleMask:

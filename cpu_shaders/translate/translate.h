@@ -66,7 +66,7 @@ struct Reflection {
   std::vector<ReflectedBlockMember> block_members;  // of uniform blocks
   std::uint32_t input_components = 0, output_components = 0, uniform_bytes = 0, texture_count = 0, buffer_count = 0;
   bool discards = false, writes_depth = false, has_side_effects = false, uses_derivatives = false,
-       uses_frag_coord = false, uses_front_facing = false, uses_primitive_id = false;
+       uses_frag_coord = false, uses_front_facing = false, uses_primitive_id = false, uses_helper_invocation = false;
   std::uint32_t local_size[3] = {0, 0, 0}, shared_bytes = 0;  // compute shaders
   bool uses_barrier = false;
   std::string no_float64_reason;  // empty: it can run in double

@@ -220,6 +220,7 @@ class Rewriter {
       input.columns = type->columns, input.rows = type->rows;
       input.array_length = array_length(d, item, "input");
       input.interpolation = interpolation;
+      input.per_sample = has(d, "sample");
       input.used = count_[input.name] > 1;
       result_.inputs.push_back(input);
     }

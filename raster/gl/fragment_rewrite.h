@@ -25,6 +25,7 @@ struct Input {
   std::uint32_t columns = 1, rows = 1;  // vecN: columns 1, rows N
   std::uint32_t array_length = 0;       // 0: not an array
   std::string interpolation;            // "flat", "noperspective" or empty
+  bool per_sample = false;              // `sample`, which drivers want on both sides
   bool used = false;                    // named anywhere but in its declaration
   Token where;
 };

@@ -337,7 +337,8 @@ std::string ShaderGenerator::vertex() const {
     const bool pulled = geometry() == Geometry::pulled;
     if (pulled) text += vertex_data(leaves_.size());
     for (const Input& input : inputs_) {
-      text += input.interpolation + (input.interpolation.empty() ? "" : " ") + "out " + input.type + " " + input.name;
+      text += input.interpolation + (input.interpolation.empty() ? "" : " ") +
+              (input.per_sample ? "sample out " : "out ") + input.type + " " + input.name;
       text += (input.array_length == 0 ? "" : "[" + number(input.array_length) + "]") + ";\n";
     }
     for (std::size_t i = 0; i < leaves_.size(); ++i) {

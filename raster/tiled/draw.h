@@ -26,8 +26,10 @@ struct Draw {
 
   bool native() const { return options.attributes == AttributeMode::native; }
   bool float64() const { return entry.number == Number::float64; }
+  // Shaders that tell pixels that are covered and hidden from those that are not covered.
+  bool tells_helpers() const { return module.uses_helper_invocation && module.uses_derivatives; }
   // Shaders that decide themselves what becomes of a fragment, or whose running can be seen.
-  bool in_order() const { return module.discards || module.writes_depth || module.has_side_effects; }
+  bool in_order() const { return module.discards || module.writes_depth || module.has_side_effects || tells_helpers(); }
 };
 
 // Invocations are shaded this many at a time, whatever the size of triangles.

@@ -1,5 +1,6 @@
-// Shaders that discard, write gl_FragDepth or have side effects: each covered pixel is shaded (where the shader has
-// derivatives, the rest of its quad, too), in primitive order, before the depth test decides. Batches hold pixels of
+// Shaders that discard, write gl_FragDepth, have side effects or read gl_HelperInvocation beside derivatives: each
+// covered pixel is shaded (where the shader has derivatives, the rest of its quad, too), in primitive order, before the
+// depth test decides. Batches hold pixels of
 // several triangles; the depth test then goes through them in order. Where the shader does no more than discard nobody
 // can tell the order, and what is nearest comes first.
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace twinshade::tiled {
 void TileWorker::shade_in_order() {
   // A fragment that is hidden now stays hidden, since depth only decreases: it need not run, if nobody can tell. Nor
   // can anybody tell the order then.
-  const bool early_depth_test = !draw_.module.writes_depth && !draw_.module.has_side_effects;
+  const bool early_depth_test = !draw_.module.writes_depth && !draw_.module.has_side_effects && !draw_.tells_helpers();
   const std::size_t pixels = std::size_t(tile_.size) * tile_.size;
   std::fill_n(color_.data(), 4 * pixels, 0.0f);
   blocks_.resize(pixels / 16);

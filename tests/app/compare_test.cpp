@@ -258,6 +258,39 @@ TEST_CASE("softpipe's frames and differences are drawn, too") {
   CHECK(std::filesystem::exists(folder / "new/sine.softpipe.png"));
 }
 
+TEST_CASE("what is covered and hidden is no helper invocation, with derivatives either") {
+  const std::vector<std::string> opengl = opengl_backends();
+  if (opengl.empty()) return;
+  const Folder folder;
+  const std::string shader = folder.file("helpers.frag",
+                                         "#version 450\nin vec3 v_position;\nout vec4 color;\n"
+                                         "void main() {\n  float helper = gl_HelperInvocation ? 1.0 : 0.0;\n"
+                                         "  precise float a = dFdx(helper), b = dFdy(helper);\n"
+                                         "  color = vec4(a, b, helper, 1.0);\n}\n");
+  const Run run = run_twinshade({"compare", "raster_torture", "--shader", shader, "--size", "160x100", "--on",
+                                 "cpu," + opengl.front(), "--json", "-"});
+  CHECK_MESSAGE(run.code == 0, run.out);
+}
+
+TEST_CASE("what samplers and inputs allow that differs between invocations or from pixel to pixel is translated") {
+  const std::vector<std::string> opengl = opengl_backends();
+  if (opengl.empty()) return;
+  const Folder folder;
+  const std::string size = folder.file("size.frag",
+                                       "#version 450\nin vec2 v_uv;\nout vec4 color;\n"
+                                       "uniform sampler2DArray albedo_maps;\nvoid main() {\n"
+                                       "  int level = int(v_uv.x) * 0;\n"
+                                       "  color = vec4(textureSize(albedo_maps, level), 1.0);\n}\n");
+  CHECK(run_twinshade(small_quad({"compare"}, {"--shader", size, "--on", "cpu," + opengl.front()})).code == 0);
+  const std::string sample = folder.file("sample.frag",
+                                         "#version 450\nsample in vec3 v_position;\nout vec4 color;\n"
+                                         "void main() { color = vec4(v_position.x > -1e9); }\n");
+  for (const char* attributes : {"exact", "native"})
+    CHECK(run_twinshade(small_quad({"compare"},
+                                   {"--shader", sample, "--on", "cpu," + opengl.front(), "--attributes", attributes}))
+              .code == 0);
+}
+
 TEST_CASE("native attributes are reported and are no failure") {
   const std::vector<std::string> opengl = opengl_backends();
   if (opengl.empty()) return;

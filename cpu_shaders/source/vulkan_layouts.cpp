@@ -41,7 +41,8 @@ std::size_t closing(const Pieces& pieces, std::size_t open) {
   return pieces.size();
 }
 
-// Blanks what goes, and the commas before it or, of the first that stays, before that.
+// One `layout(...)`. What goes from it is blanked with the commas that separate nothing any more; if nothing stays, all
+// of it.
 class Layout {
  public:
   Layout(const Pieces& pieces, std::size_t layout, std::size_t close)

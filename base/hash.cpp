@@ -4,6 +4,8 @@
 #include <bit>
 #include <cstring>
 
+#include "base/hash_instructions.h"
+
 namespace twinshade {
 namespace {
 
@@ -27,13 +29,7 @@ constexpr std::uint32_t kRound[64] = {
   h = t1 + (std::rotr(a, 2) ^ std::rotr(a, 13) ^ std::rotr(a, 22)) + ((a & b) ^ (a & c) ^ (b & c));
 }
 
-}  // namespace
-
-Sha256::Sha256()
-    : state_{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19},
-      pending_{} {}
-
-void Sha256::block(const std::uint8_t* bytes) {
+void add_block(std::uint32_t state[8], const std::uint8_t* bytes) {
   std::uint32_t w[64];
   for (int i = 0; i < 16; ++i)
     w[i] = std::uint32_t(bytes[4 * i]) << 24 | std::uint32_t(bytes[4 * i + 1]) << 16 |
@@ -44,7 +40,8 @@ void Sha256::block(const std::uint8_t* bytes) {
            (std::rotr(b, 17) ^ std::rotr(b, 19) ^ (b >> 10));
   }
   // The working variables move up by one each round: here their names do instead, so that they stay in registers.
-  auto [a, b, c, d, e, f, g, h] = state_;
+  std::uint32_t a = state[0], b = state[1], c = state[2], d = state[3], e = state[4], f = state[5], g = state[6],
+                h = state[7];
   for (int i = 0; i < 64; i += 8) {
     round(kRound[i] + w[i], a, b, c, d, e, f, g, h);
     round(kRound[i + 1] + w[i + 1], h, a, b, c, d, e, f, g);
@@ -56,7 +53,19 @@ void Sha256::block(const std::uint8_t* bytes) {
     round(kRound[i + 7] + w[i + 7], b, c, d, e, f, g, h, a);
   }
   const std::uint32_t after[8] = {a, b, c, d, e, f, g, h};
-  for (int i = 0; i < 8; ++i) state_[i] += after[i];
+  for (int i = 0; i < 8; ++i) state[i] += after[i];
+}
+
+}  // namespace
+
+Sha256::Sha256(bool portable)
+    : by_instructions_(!portable && has_sha256_instructions()),
+      state_{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19},
+      pending_{} {}
+
+void Sha256::add_blocks(const std::uint8_t* bytes, std::size_t count) {
+  if (by_instructions_) return add_sha256_blocks(state_, bytes, count, kRound);
+  for (; count > 0; --count, bytes += 64) add_block(state_, bytes);
 }
 
 void Sha256::add(const void* data, std::size_t count) {
@@ -71,10 +80,10 @@ void Sha256::add(const void* data, std::size_t count) {
     count -= take;
     used += take;
     if (used < 64) return;
-    block(pending_);
+    add_blocks(pending_, 1);
   }
-  for (; count >= 64; bytes += 64, count -= 64) block(bytes);
-  if (count != 0) std::memcpy(pending_, bytes, count);
+  add_blocks(bytes, count / 64);
+  if (count % 64 != 0) std::memcpy(pending_, bytes + count / 64 * 64, count % 64);
 }
 
 std::string Sha256::hex() {

@@ -26,3 +26,7 @@ void* allocate_lines(std::size_t bytes) {
 void free_lines(void* p, std::size_t bytes) { ::operator delete(p, alignment(bytes)); }
 
 }  // namespace twinshade
+
+template class std::vector<float, twinshade::LineAllocator<float>>;
+template class std::vector<std::uint32_t, twinshade::LineAllocator<std::uint32_t>>;
+template class std::vector<std::uint8_t, twinshade::LineAllocator<std::uint8_t>>;

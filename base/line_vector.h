@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <new>
 #include <vector>
 
@@ -33,3 +34,9 @@ template <class T>
 using LineVector = std::vector<T, LineAllocator<T>>;
 
 }  // namespace twinshade
+
+// Compiled once, optimised: code built without optimisation, which handles frames too, would clear them at a tenth of
+// the speed, and the linker may take its functions for all.
+extern template class std::vector<float, twinshade::LineAllocator<float>>;
+extern template class std::vector<std::uint32_t, twinshade::LineAllocator<std::uint32_t>>;
+extern template class std::vector<std::uint8_t, twinshade::LineAllocator<std::uint8_t>>;

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
+#include "base/hash_instructions.h"
 
 using namespace twinshade;
 namespace fs = std::filesystem;
@@ -45,6 +46,19 @@ TEST_CASE("SHA-256 does not depend on how the bytes are handed over") {
     Sha256 hash;
     for (std::size_t at = 0; at < text.size(); at += step) hash.add(std::string_view(text).substr(at, step));
     CHECK(hash.hex() == sha256_hex(text));
+  }
+}
+
+TEST_CASE("SHA-256 by the processor's instructions and by portable code give the same digests") {
+  if (!has_sha256_instructions())
+    MESSAGE("this processor has no instructions for SHA-256: only portable code is tested");
+  std::string text;
+  for (std::uint32_t i = 0, state = 1; i < 1000; ++i) text += char((state = state * 1664525u + 1013904223u) >> 24);
+  for (std::size_t size = 0; size <= text.size(); size += size < 200 ? 1 : 37) {
+    CAPTURE(size);
+    Sha256 portable(true);
+    portable.add(std::string_view(text).substr(0, size));
+    CHECK(portable.hex() == sha256_hex(std::string_view(text).substr(0, size)));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "base/error.h"
@@ -28,6 +29,44 @@ double tone_curve(double x, Tonemap tonemap) {
 double srgb_encoded(double linear) {
   if (linear <= 0.0031308) return 12.92 * linear;
   return 1.055 * portable::pow(linear, 1 / 2.4) - 0.055;
+}
+
+// The same to the nearest of 256, without a power for each value.
+class Srgb8 {
+ public:
+  Srgb8() {
+    for (std::size_t k = 1; k < 256; ++k) {  // bits of positive numbers are in the numbers' order
+      auto below = std::bit_cast<std::uint64_t>(first_[k - 1]), at = std::bit_cast<std::uint64_t>(1.0);
+      while (at - below > 1) {
+        const std::uint64_t middle = below + (at - below) / 2;
+        (std::floor(srgb_encoded(std::bit_cast<double>(middle)) * 255 + 0.5) >= double(k) ? at : below) = middle;
+      }
+      first_[k] = std::bit_cast<double>(at);
+    }
+    for (std::size_t cell = 0, k = 0; cell <= kCells; ++cell) {
+      while (k < 255 && first_[k + 1] <= double(cell) / kCells) ++k;
+      cell_[cell] = static_cast<unsigned char>(k);
+    }
+  }
+
+  // linear: in [0, 1]
+  unsigned char operator()(double linear) const {
+    std::size_t k = cell_[std::size_t(linear * kCells)];
+    while (k < 255 && first_[k + 1] <= linear) ++k;
+    return static_cast<unsigned char>(k);
+  }
+
+ private:
+  static constexpr std::size_t kCells = 4096;  // narrower than the steps of the darkest values, 1 / (12.92 * 255)
+  std::array<double, 256> first_{};            // the least value that becomes each
+  std::array<unsigned char, kCells + 1> cell_;
+};
+
+unsigned char toned_value(double exposed, Tonemap tonemap) {
+  static const Srgb8 encoded;
+  if (!(exposed > 0)) return 0;
+  // Far above what is white in every curve, and before the curves' squares overflow
+  return encoded(std::min(tone_curve(std::min(exposed, 1e100), tonemap), 1.0));
 }
 
 // Writes a y-down picture whose rows are those of a y-up buffer, last row first.
@@ -83,11 +122,7 @@ Rgb difference_color(const Frame& a, const Frame& b, std::size_t pixel) {
 }  // namespace
 
 unsigned char display_value(double radiance, double exposure, Tonemap tonemap) {
-  if (!(radiance > 0)) return 0;
-  const double exposed = radiance * portable::exp2(exposure);
-  // Far above what is white in every curve, and before the curves' squares overflow
-  const double toned = std::min(tone_curve(std::min(exposed, 1e100), tonemap), 1.0);
-  return static_cast<unsigned char>(std::floor(srgb_encoded(toned) * 255 + 0.5));
+  return toned_value(exposure == 0 ? radiance : radiance * portable::exp2(exposure), tonemap);
 }
 
 void require_picture_ending(const std::string& path) {
@@ -113,10 +148,11 @@ void write_picture(const std::string& path, const Frame& frame, const PictureOpt
     write_rows(path, frame.width, frame.height, 3, rgb, options);
   } else {
     std::vector<unsigned char> rgb(pixels * 3);
+    const double scale = portable::exp2(options.exposure);
     parallel_for(frame.height, [&](std::size_t y, int) {
       for (std::size_t i = y * frame.width; i < (y + 1) * frame.width; ++i)
         for (std::size_t c = 0; c < 3; ++c)
-          rgb[i * 3 + c] = display_value(double(frame.color[i * 4 + c]), options.exposure, options.tonemap);
+          rgb[i * 3 + c] = toned_value(double(frame.color[i * 4 + c]) * scale, options.tonemap);
     });
     write_rows(path, frame.width, frame.height, 3, rgb, options);
   }

@@ -124,6 +124,16 @@ TEST_CASE("PNG is sRGB") {
   }
 }
 
+TEST_CASE("every linear value becomes the nearest of sRGB's 256 values") {
+  double largest_error = 0;
+  for (int i = 1; i < 1 << 20; ++i) {
+    const double linear = i / double(1 << 20);
+    const double expected = 255 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055);
+    largest_error = std::max(largest_error, std::abs(display_value(linear, 0, Tonemap::none) - expected));
+  }
+  CHECK(largest_error <= 0.5 + 1e-9);
+}
+
 TEST_CASE("a picture that cannot be written is refused by name and leaves nothing") {
   const Folder folder;
   const Frame frame = frame_of(2, 2);

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/names.h"
 
 namespace twinshade {
@@ -247,6 +248,7 @@ class CasesReader {
     if (!object.contains("values") || !object["values"].is_array()) fail(what + " needs \"values\", a list of rows");
     const Json& rows = object["values"];
     if (rows.empty()) fail(what + " has no rows: give \"values\" one for each invocation");
+    require_room(values.type, rows.size(), what);
     for (std::size_t row = 0; row < rows.size(); ++row) {
       const std::string where = what + ", row " + std::to_string(row);
       const std::size_t before = values.doubles.size();
@@ -261,6 +263,15 @@ class CasesReader {
              " components, but " + std::to_string(count) + " are given");
     }
     return column;
+  }
+
+  // Rows of null take as much as those with values, though a short file may have many.
+  void require_room(const ValueType& type, std::size_t rows, const std::string& what) const {
+    constexpr std::uint64_t kComponent = sizeof(Values::bits[0]) + sizeof(Values::doubles[0]);
+    constexpr std::uint64_t kLarge = std::uint64_t{64} << 20;  // what is below finds memory enough: not asked for
+    const std::uint64_t bytes = std::uint64_t{rows} * type.components() * kComponent;
+    if (bytes > kLarge)
+      require_memory(bytes, origin_ + ": " + what, "give it fewer rows, or the type that it has in the shader");
   }
 
   // Nested lists are what they hold, one after the other.

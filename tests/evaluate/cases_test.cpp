@@ -147,6 +147,15 @@ TEST_CASE("what is wrong with cases is said in one line") {
   CHECK(refusal(R"({"values": {"inputs": [{"name": 1}]}})") == "f.json: values.inputs[0] needs a \"name\", a string");
 }
 
+TEST_CASE("rows of null whose type needs more memory than there is are refused before they take it") {
+  std::string rows = "null";
+  for (int i = 1; i < 100000; ++i) rows += ",null";
+  const std::string said =
+      refusal(R"({"values": {"outputs": [{"name": "x", "type": "mat4[65536]", "values": [)" + rows + "]}]}}");
+  CHECK(said.find("f.json: values.outputs[0] (x) needs ") == 0);
+  CHECK(said.find("give it fewer rows") != std::string::npos);
+}
+
 TEST_CASE("expected outputs have to be the shader's") {
   const auto check = [](const std::string& name, const std::string& type) {
     return error_of(

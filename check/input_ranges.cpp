@@ -56,6 +56,14 @@ std::optional<InputRange::Kind> kind_of(const std::string& word) {
   return std::nullopt;
 }
 
+// That stands first, behind blanks; none where something else does, or more digits than an int has.
+std::optional<int> whole_number(std::string_view text) {
+  int value = 0;
+  text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
+  const auto [_, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() ? std::optional(value) : std::nullopt;
+}
+
 // What stands behind a range is for people, or one that was mistyped.
 void require_end(const std::vector<std::string>& words, std::size_t end, const std::string& where) {
   if (end == words.size()) return;
@@ -146,7 +154,9 @@ void keep_those_in_force(const ShaderSource& source, InputComments& comments) {
   InputComments in_force;
   std::istringstream left(preprocessed);
   for (std::string line; std::getline(left, line);)
-    if (line.rfind(mark, 0) == 0) in_force.insert(comments.extract(std::stoul(line.substr(mark.size()))));
+    if (line.rfind(mark, 0) == 0)
+      if (const std::optional<int> comment = whole_number(std::string_view(line).substr(mark.size())))
+        in_force.insert(comments.extract(std::size_t(*comment)));
   comments = std::move(in_force);
 }
 
@@ -173,8 +183,9 @@ std::vector<InputRange> declared_ranges(const ShaderSource& source) {
   bool in_block = false;
   for (std::string line; std::getline(lines, line); ++at) {
     ++number_of_line;
-    if (line.rfind("#line ", 0) == 0) {
-      number_of_line = std::stoi(line.substr(6)) - 1;
+    if (!in_block && line.rfind("#line ", 0) == 0) {
+      // That an author's own is none is glslang's to say.
+      number_of_line = whole_number(std::string_view(line).substr(6)).value_or(number_of_line + 1) - 1;
       const std::size_t open = line.find('"'), close = line.rfind('"');
       if (close != open) file = with_real_names(source.files, line.substr(open + 1, close - open - 1));
       continue;

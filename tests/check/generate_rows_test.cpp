@@ -165,6 +165,17 @@ TEST_CASE("a range within a block comment is none") {
   CHECK(declared_ranges(shader("// /*\n// @input x 3..4\n//*/")).size() == 1);
 }
 
+TEST_CASE(
+    "a #line in a comment, one without a number and a pragma that resembles our own keep no range from being read") {
+  CHECK(declared_ranges(shader("/*\n#line up with the others\n*/\n// @input x 0..1")).at(0).where == "s.frag:4: ");
+  CHECK(declared_ranges(shader("#line 99999999999999999999\n// @input x 0..1")).size() == 1);
+  CHECK(declared_ranges(shader("#line  7\n// @input x 0..1")).at(0).where == "s.frag:7: ");
+  for (const char* number : {"", "own", "99999999999999999999", "-1"})
+    CHECK(
+        declared_ranges(shader("#pragma twinshade_input_" + std::string(number) + "\n#if 1\n// @input x 0..1\n#endif"))
+            .size() == 1);
+}
+
 TEST_CASE("a second line for the same input is refused, with the place of the first") {
   CHECK_THROWS_WITH_AS(declared_ranges(shader("// @input x 0..1\n\n// @input x 0..2")),
                        "s.frag:3: a second range for x, after s.frag:1: keep one; a side file goes before comments",

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <random>
 
 #include "base/error.h"
 #include "base/memory.h"
@@ -105,6 +107,25 @@ void write_in_place(const std::string& path, const Destination& to, std::string_
   if (error != 0) refuse_writing(path, std::strerror(error));
 }
 
+// Of no other process, here or elsewhere: those in two containers, or on two machines, that write into one folder have
+// the same numbers.
+const std::string& process_mark() {
+  static const std::string mark = [] {
+    std::random_device random;
+    char text[17];
+    std::snprintf(text, sizeof text, "%08x%08x", random(), random());
+    return std::string(text);
+  }();
+  return mark;
+}
+
+// Beside the file that it becomes; with its ending, which some libraries go by.
+std::string temporary_name(const std::string& path) {
+  static std::atomic<unsigned> serial{0};
+  return ".twinshade-" + std::to_string(::getpid()) + "-" + process_mark() + "-" + std::to_string(serial++) +
+         fs::path(path).extension().string();
+}
+
 fs::path folder_of_temporaries(const std::string& path) {
   std::error_code code;
   const fs::path folder = fs::temp_directory_path(code);
@@ -140,13 +161,10 @@ std::string read_file(const std::string& path, std::optional<std::uint64_t> most
 }
 
 void write_file_with(const std::string& path, const std::function<void(const std::string&)>& write) {
-  static std::atomic<unsigned> serial{0};
   const Destination to = destination_of(path);
   require_writable(path, to);
   const fs::path folder = to.in_place ? folder_of_temporaries(path) : folder_of(to.file);
-  const std::string temporary = (folder / (".twinshade-" + std::to_string(::getpid()) + "-" + std::to_string(serial++) +
-                                           fs::path(path).extension().string()))
-                                    .string();
+  const std::string temporary = (folder / temporary_name(path)).string();
   std::error_code code;
   const RemovedOnSignal removed(temporary);
   try {

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <string>
 #include <thread>
 
@@ -90,6 +91,18 @@ TEST_CASE("a written file is whole or not there") {
                   UserError);
   CHECK(read_file(path) == "one");
   CHECK(files_in(folder.path) == 1);
+}
+
+TEST_CASE("a temporary file's name has more than the process' number, which another container's may have too") {
+  TemporaryFolder folder;
+  std::string name;
+  write_file_with((folder.path / "a.txt").string(), [&](const std::string& temporary) {
+    name = fs::path(temporary).filename().string();
+    std::ofstream(temporary) << "x";
+  });
+  CAPTURE(name);
+  CHECK(
+      std::regex_match(name, std::regex("\\.twinshade-" + std::to_string(::getpid()) + "-[0-9a-f]{16}-[0-9]+\\.txt")));
 }
 
 TEST_CASE("a path that cannot be read or written is named in one line") {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,7 +18,11 @@ struct ShaderSource {
   std::string name;                // technique name, or the user's file name without folder and ending
   std::string text;                // no #version line unless the author wrote one; then it is the first line
   std::vector<std::string> files;  // as they appear in messages; files[0] is the main file
-  int version = 450;               // of the author's #version line, 450 where there is none
+  // Of these, those that are built-in shaders, byte for byte, wherever they were read. No other file has the name of
+  // one
+  // ("shaders/exact/dot.glsl"; "./shaders/exact/dot.glsl" is the author's own).
+  std::set<std::string> builtin_files = {};
+  int version = 450;  // of the author's #version line, 450 where there is none
   bool es = false;
   ShaderStage stage = ShaderStage::fragment;  // by the main file's name: compute where it ends in .comp
 };
@@ -31,10 +36,12 @@ struct SourceOptions {
 // UserError where a define is none: NAME is no name of a macro's, or one of GLSL's own, or VALUE has ends of lines.
 void require_define(const std::string& define);
 
-// Searches, in order: the folder of the including file, then the folders of the options, then the built-in shaders
+// Searches, in order: the folder of the including file (none for a main text that is no file and whose path names no
+// folder), then the folders of the options, then the built-in shaders
 // (embedded in the binary, addressed as "exact/dot.glsl", "basis/sh.glsl" ...). Include once per file: a second
 // #include of the same file is empty, but of a list of macro calls (source/macro_list.h). UserError "file:line: cannot
-// include "x": not found in ..." and where includes go deeper than 100, as loops do. UserError where the file's name ends like those of other stages (.vert, .geom ...).
+// include "x": not found in ..." and where includes go deeper than 100, as loops do. UserError where the file's name
+// ends like those of other stages (.vert, .geom ...).
 ShaderSource load_shader(const std::string& path, const SourceOptions& options = {});
 // UserError where an include folder that someone names ("builtin:...": of the shaders in the program) does not exist.
 void require_include_folder(const std::string& folder);

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "cpu_shaders/source/builtin_shaders.h"
-
 namespace twinshade::lint_detail {
 namespace {
 
@@ -109,10 +107,10 @@ int most_rows(const std::vector<GlslType>& arguments) {
 
 }  // namespace
 
-std::string exact_file(const std::string& path) {
+std::string exact_file(const ShaderSource& source, const std::string& path) {
+  if (source.builtin_files.count(path) == 0) return "";
   const std::size_t folder = path.rfind("exact/"), ending = path.rfind(".glsl");
   if (folder == std::string::npos || ending == std::string::npos || ending + 5 != path.size()) return "";
-  if (!builtin_shader(path.substr(folder))) return "";
   if (path.compare(folder, path.npos, "exact/fetch_colors.glsl") == 0) return "";  // what it is depends on its includer
   return path.substr(folder + 6, ending - folder - 6);
 }
@@ -233,12 +231,13 @@ std::string ExactFunctions::unseen(const GlslType& type) {
   return "exact_unseen";
 }
 
-std::string ExactFunctions::text(std::vector<std::string>& files) const {
+std::string ExactFunctions::text(ShaderSource& source) const {
   std::string includes;
   for (const std::string& file : files_) includes += "#include \"exact/" + file + ".glsl\"\n";
   const ShaderSource prologue = resolve_shader("exact", includes, kExactFunctions);
   for (const std::string& file : prologue.files)
-    if (std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
+    if (std::find(source.files.begin(), source.files.end(), file) == source.files.end()) source.files.push_back(file);
+  source.builtin_files.insert(prologue.builtin_files.begin(), prologue.builtin_files.end());
   std::string text = prologue.text + "\n";
   for (const std::string& function : generated_) text += function + "\n";
   for (const std::string& function : generated_matrices_) text += function + "\n";

@@ -37,8 +37,8 @@ class ExactFunctions {
   // A file of shaders/exact/ that the shader includes itself.
   void include(const std::string& file) { files_.insert(file); }
 
-  // Definitions with #line, to stand before the shader; adds its files to `files`.
-  std::string text(std::vector<std::string>& files) const;
+  // Definitions with #line, to stand before the text of `source`; adds their files to its.
+  std::string text(ShaderSource& source) const;
 
  private:
   std::string written_out(const std::string& name, const std::vector<GlslType>& arguments);
@@ -53,8 +53,8 @@ class ExactFunctions {
 // The file in messages of what ExactFunctions adds, but for the files of shaders/exact/ themselves.
 inline constexpr const char* kExactFunctions = "exact functions";
 
-// "dot" from "shaders/exact/dot.glsl" or a copy of it on disk; empty for other files.
-std::string exact_file(const std::string& path);
+// "dot" of a file of `source` that is "shaders/exact/dot.glsl" or a copy of it on disk; empty for other files.
+std::string exact_file(const ShaderSource& source, const std::string& path);
 
 // "vec3", "mat2x4", "float".
 std::string type_text(const GlslType& type);

@@ -427,7 +427,8 @@ ExactShader make_exact(const ShaderSource& source, ExactScope scope) {
   const TokenList tokens = tokens_to_parse(source);
   // The files of shaders/exact/ stand as they are before the shader, unless it is they too that are rewritten.
   const auto stands_before = [&](const std::string& file) {
-    return scope == ExactScope::written_out ? exact_file(file) == "written_out" : !exact_file(file).empty();
+    const std::string exact = exact_file(source, file);
+    return scope == ExactScope::written_out ? exact == "written_out" : !exact.empty();
   };
   std::set<std::string> own, taken;
   for (const Token& token : tokens.tokens)
@@ -449,8 +450,8 @@ ExactShader make_exact(const ShaderSource& source, ExactScope scope) {
     result.uses_zero = rewrite.uses_zero_;
     result.changed = result.uses_zero || !rewrite.functions_.empty();
     for (const std::string& file : tokens.files)
-      if (stands_before(file)) rewrite.functions_.include(exact_file(file));
-    std::string before = rewrite.functions_.text(result.source.files);
+      if (stands_before(file)) rewrite.functions_.include(exact_file(source, file));
+    std::string before = rewrite.functions_.text(result.source);
     if (result.uses_zero) before += std::string("uniform float ") + kExactZero + ";\n";
     result.source.text.clear();
     if (!source.es)

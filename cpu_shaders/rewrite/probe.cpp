@@ -44,8 +44,8 @@ bool computes(const Expression& e) {
 
 class Probe : public Listener {
  public:
-  Probe(const TokenList& list, const std::optional<std::set<std::size_t>>& only)
-      : edits_(list), list_(list), only_(only) {
+  Probe(const ShaderSource& source, const TokenList& list, const std::optional<std::set<std::size_t>>& only)
+      : edits_(list), source_(source), list_(list), only_(only) {
     for (std::size_t i = 0; i < list.tokens.size(); ++i)
       if (list.tokens[i].text == "discard") edits_.replace(i, "");
   }
@@ -143,7 +143,7 @@ class Probe : public Listener {
 
   bool is_exact(int number) const {
     const std::string& file = list_.files[std::size_t(number)];
-    return file == kExactFunctions || !exact_file(file).empty();
+    return file == kExactFunctions || !exact_file(source_, file).empty();
   }
 
   // The bracket that goes with the one at a token.
@@ -440,6 +440,7 @@ class Probe : public Listener {
     returned_.text.clear();
   }
 
+  const ShaderSource& source_;
   const TokenList& list_;
   const Parser* parser_ = nullptr;
   const std::optional<std::set<std::size_t>>& only_;
@@ -460,7 +461,7 @@ ProbedShader add_probes(const ShaderSource& source, const std::optional<std::set
   using namespace lint_detail;
   if (!only) compile_glsl(source);  // the parser relies on valid GLSL
   const TokenList tokens = tokens_to_parse(source);
-  Probe probe(tokens, only);
+  Probe probe(source, tokens, only);
   probe.read();
 
   ProbedShader result;

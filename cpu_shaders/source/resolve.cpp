@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -35,10 +36,13 @@ struct File {
   std::string identity;  // equal for the same file reached by different names
   std::string text;
   bool builtin = false;
+  bool has_folder = true;  // else a text of the program's: no file of the current folder is beside it
 };
 
 // "builtin:driver" among the include folders is shaders/driver in the binary.
 constexpr std::string_view kBuiltinFolder = "builtin:";
+
+const std::string kBuiltinIdentity = "builtin:", kBuiltinShown = "shaders/";
 
 // With ends of lines and white space that glslang takes for them: it has no form feeds and vertical tabs.
 std::string unix_lines(std::string text) {
@@ -56,7 +60,7 @@ std::string unix_lines(std::string text) {
 }
 
 File builtin_file(const std::string& name, std::string_view text) {
-  return {"shaders/" + name, fs::path(name).parent_path().string(), "builtin:" + name, std::string(text), true};
+  return {"shaders/" + name, fs::path(name).parent_path().string(), kBuiltinIdentity + name, std::string(text), true};
 }
 
 void refuse_large_file(const fs::path& path) {
@@ -80,13 +84,21 @@ std::optional<File> open_file(const fs::path& path) {
   return file;
 }
 
-// The same built-in reached on disk and in the binary is one file.
-void unite_with_builtin(File& file) {
-  const std::size_t folder = file.identity.rfind("/shaders/");
-  if (file.builtin || folder == std::string::npos) return;
-  const std::string name = file.identity.substr(folder + 9);
+bool is_text_of_builtin(const std::string& name, const std::string& text) {
   const auto builtin = builtin_shader(name);
-  if (builtin && unix_lines(std::string(*builtin)) == file.text) file.identity = "builtin:" + name;
+  return builtin && unix_lines(std::string(*builtin)) == text;
+}
+
+// The same built-in reached on disk and in the binary is one file. Another of its name is shown otherwise: what is
+// shown as a built-in is taken for it.
+void unite_with_builtin(File& file) {
+  if (file.builtin) return;
+  if (const std::size_t folder = file.identity.rfind("/shaders/"); folder != std::string::npos)
+    if (const std::string name = file.identity.substr(folder + 9); is_text_of_builtin(name, file.text))
+      file.identity = kBuiltinIdentity + name;
+  if (file.shown.rfind(kBuiltinShown, 0) != 0) return;
+  const std::string name = file.shown.substr(kBuiltinShown.size());
+  if (builtin_shader(name) && !is_text_of_builtin(name, file.text)) file.shown.insert(0, "./");
 }
 
 // By the file's name, whose endings are those of glslang and others in use, alone or before .glsl. Another stage's
@@ -122,6 +134,7 @@ class Resolver {
     const bool main = identities_.empty();
     identities_.push_back(file.identity);
     files_.push_back(file.shown);
+    if (file.identity.rfind(kBuiltinIdentity, 0) == 0) builtin_files_.insert(file.shown);
     const int outer_depth = conditional_depth_;
     const std::string index = std::to_string(files_.size() - 1);
     line_directive(1, file.shown);
@@ -159,6 +172,7 @@ class Resolver {
     source.name = name;
     source.text = version_line_ + prologue_ + defines_ + body_;
     source.files = files_;
+    source.builtin_files = builtin_files_;
     source.version = version_;
     source.es = es_;
     source.stage = stage_;
@@ -315,8 +329,8 @@ class Resolver {
     if (from.builtin) {
       const std::string beside = (fs::path(from.folder) / wanted).lexically_normal().string();
       if (const auto text = builtin_shader(beside)) return builtin_file(beside, *text);
-      looked = "shaders/" + from.folder;
-    } else {
+      looked = kBuiltinShown + from.folder;
+    } else if (from.has_folder) {
       if (auto file = open_file(fs::path(from.folder) / wanted)) return *file;
       looked = from.folder.empty() ? "." : from.folder;
     }
@@ -327,16 +341,18 @@ class Resolver {
         continue;
       }
       if (auto file = open_file(fs::path(folder) / wanted)) return *file;
-      looked += ", " + folder;
+      looked += (looked.empty() ? "" : ", ") + folder;
     }
     const std::string normal = fs::path(wanted).lexically_normal().string();
     if (const auto text = builtin_shader(normal)) return builtin_file(normal, *text);
-    throw UserError(where + "cannot include \"" + wanted + "\": not found in " + looked + ", built-in shaders");
+    throw UserError(where + "cannot include \"" + wanted + "\": not found in " + looked + (looked.empty() ? "" : ", ") +
+                    "built-in shaders");
   }
 
   const std::vector<std::string>& include_folders_;
   const ShaderStage stage_;
   std::vector<std::string> identities_, files_;
+  std::set<std::string> builtin_files_;
   std::string version_line_, prologue_, defines_, body_;
   int version_ = 450, depth_ = 0, conditional_depth_ = 0, questions_ = 0;
   bool es_ = false, code_seen_ = false, file_is_numbered_ = false;
@@ -351,6 +367,7 @@ ShaderSource resolve_shader(const std::string& name, const std::string& main_tex
   file.folder = fs::path(main_path).parent_path().string();
   file.identity = main_path;
   file.text = unix_lines(main_text);
+  file.has_folder = !file.folder.empty() || fs::exists(main_path);
   // A text made by the program under a built-in's name includes its neighbours from the binary.
   if (main_path.compare(0, 8, "shaders/") == 0 && !fs::exists(main_path)) {
     file.builtin = true;

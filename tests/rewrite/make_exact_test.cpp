@@ -2,6 +2,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -245,6 +247,19 @@ TEST_CASE("a shader's own names that are those of exact functions are given way 
       "included", "#include \"exact/dot.glsl\"\nin vec3 a; out float r;\nvoid main() { r = exact_dot(a, a) + 1.0; }\n",
       "included.frag");
   CHECK(plain_body(make_exact(included)) == "r=exact_add(exact_dot(a,a),1.0);");
+}
+
+TEST_CASE("a file that has an exact function's name alone is made exact as any other") {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "twinshade_make_exact_test";
+  std::filesystem::create_directories(folder / "exact");
+  std::ofstream(folder / "exact" / "dot.glsl") << "float exact_dot(vec3 a, vec3 b) { return a.x * b.x; }\n";
+  const ExactShader exact = make_exact(resolve_shader("t",
+                                                      "#include \"exact/dot.glsl\"\nin vec3 a; out float r;\n"
+                                                      "void main() { r = exact_dot(a, a) + dot(a, a); }\n",
+                                                      (folder / "t.frag").string()));
+  std::filesystem::remove_all(folder);
+  CHECK(plain_body(exact) == "r=exact_add(exact_dot_name(a,a),exact_dot(a,a));");
+  CHECK(exact.left.empty());
 }
 
 TEST_CASE("constant structures whose members are zeros become variables") {

@@ -31,6 +31,20 @@ struct Folder {
   }
 };
 
+// The folder that the program runs in, for as long as this lives.
+class CurrentFolder {
+ public:
+  explicit CurrentFolder(const std::filesystem::path& folder) : before_(std::filesystem::current_path()) {
+    std::filesystem::current_path(folder);
+  }
+  ~CurrentFolder() { std::filesystem::current_path(before_); }
+  CurrentFolder(const CurrentFolder&) = delete;
+  CurrentFolder& operator=(const CurrentFolder&) = delete;
+
+ private:
+  std::filesystem::path before_;
+};
+
 std::string error_of(const std::function<void()>& body) {
   try {
     body();
@@ -84,6 +98,37 @@ TEST_CASE("includes are resolved beside the including file, in the include folde
   CHECK(reported_position(source.text, "void main") == '"' + main + "\":4");
   CHECK(reported_position(source.text, "float branch") == '"' + source.files[1] + "\":2");
   CHECK(reported_position(gl_text(source, "#version 330", ""), "float branch") == "1:2");
+}
+
+TEST_CASE("a text that is no file includes nothing of the current folder") {
+  Folder folder;
+  std::filesystem::create_directories(folder.path / "exact");
+  folder.write("exact/dot.glsl", "float somebody_elses;\n");
+  folder.write("t.frag", "");
+  const CurrentFolder current(folder.path);
+  const std::string text = "#include \"exact/dot.glsl\"\n";
+  CHECK(resolve_shader("t", text, "made by the program").text.find("somebody_elses") == std::string::npos);
+  CHECK(resolve_shader("t", text, "made by the program", {{"."}}).text.find("somebody_elses") != std::string::npos);
+  CHECK(resolve_shader("t", text, "t.frag").text.find("somebody_elses") != std::string::npos);
+  CHECK(error_of([] { resolve_shader("t", "#include \"lost.glsl\"\n", "made by the program"); }) ==
+        "made by the program:1: cannot include \"lost.glsl\": not found in built-in shaders");
+}
+
+TEST_CASE("a file is a built-in shader by what is in it, not by its name") {
+  Folder folder;
+  std::filesystem::create_directories(folder.path / "shaders" / "exact");
+  folder.write("shaders/exact/dot.glsl", "float own;\n");
+  folder.write("shaders/exact/exp2.glsl", std::string(builtin_shader("exact/exp2.glsl").value()));
+  folder.write("t.frag",
+               "#include \"shaders/exact/dot.glsl\"\n#include \"shaders/exact/exp2.glsl\"\n#include "
+               "\"exact/normalize.glsl\"\n");
+  const CurrentFolder current(folder.path);
+  const ShaderSource source = load_shader("t.frag");
+  CHECK(source.files[1] == "./shaders/exact/dot.glsl");
+  CHECK(source.files[2] == "shaders/exact/exp2.glsl");
+  CHECK(source.builtin_files.count("./shaders/exact/dot.glsl") == 0);
+  CHECK(source.builtin_files.count("shaders/exact/exp2.glsl") == 1);
+  CHECK(source.builtin_files.count("shaders/exact/dot.glsl") == 1);  // which normalize.glsl includes
 }
 
 TEST_CASE("lines stay right after continued lines and comments") {

@@ -20,6 +20,7 @@ class CameraTransform {
  private:
   glm::dvec3 eye_, right_, up_, backward_;
   double scale_x_, scale_y_, depth_scale_, depth_offset_;
+  bool orthographic_;
 };
 
 }  // namespace twinshade

@@ -18,8 +18,9 @@ namespace {
 using nlohmann::json;
 
 // Extensions that change neither geometry nor what this program draws of a material, and those that are implemented
-// (KHR_texture_transform, KHR_mesh_quantization, KHR_materials_pbrSpecularGlossiness's diffuse part).
+// (the first four; of KHR_materials_pbrSpecularGlossiness the diffuse part).
 constexpr std::array kSupported = {"KHR_texture_transform",
+                                   "EXT_mesh_gpu_instancing",
                                    "KHR_mesh_quantization",
                                    "KHR_materials_pbrSpecularGlossiness",
                                    "KHR_materials_unlit",

@@ -1,18 +1,18 @@
 // Khronos Group, glTF 2.0 specification (ISO/IEC 12113:2022), sections 3.5 (scenes), 3.7 (meshes, skins), 3.9
-// (materials), 3.10 (cameras); KHR_texture_transform; KHR_materials_pbrSpecularGlossiness.
+// (materials); KHR_texture_transform; EXT_mesh_gpu_instancing; KHR_materials_pbrSpecularGlossiness.
 #include "scenes/gltf_model.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 
 #include "base/portable_math.h"
+#include "scenes/gltf_camera.h"
 #include "scenes/gltf_document.h"
+#include "scenes/gltf_ignored.h"
 #include "scenes/material_image.h"
-#include "scenes/scene_limits.h"
 
 namespace twinshade {
 namespace {
@@ -21,6 +21,9 @@ using glm::dmat4;
 using glm::dvec3;
 using glm::dvec4;
 using nlohmann::json;
+
+// Vertices and corners of a mesh times its instances: a small file may claim any number.
+constexpr std::size_t kMostInstanced = std::size_t(1) << 27;
 
 // How a texture is looked up: which uv set, moved by KHR_texture_transform.
 struct Lookup {
@@ -56,6 +59,7 @@ class Reader {
       if (document_.element("nodes", node).contains("mesh")) read_mesh_node(node);
       if (document_.element("nodes", node).contains("camera")) read_camera(node);
     }
+    note_ignored_parts(document_, notes_);
     for (const std::string& note : notes_) model_.notes.push_back(note);
   }
 
@@ -114,9 +118,13 @@ class Reader {
         for (int r = 0; r < 4; ++r) result[c][r] = m[std::size_t(4 * c + r)];
       return result;
     }
-    const auto t = node.value("translation", std::array<double, 3>{0, 0, 0});
-    auto q = node.value("rotation", std::array<double, 4>{0, 0, 0, 1});
-    const auto s = node.value("scale", std::array<double, 3>{1, 1, 1});
+    return scaled_turned_moved(node.value("scale", std::array<double, 3>{1, 1, 1}),
+                               node.value("rotation", std::array<double, 4>{0, 0, 0, 1}),
+                               node.value("translation", std::array<double, 3>{0, 0, 0}));
+  }
+
+  static dmat4 scaled_turned_moved(const std::array<double, 3>& s, std::array<double, 4> q,
+                                   const std::array<double, 3>& t) {
     const double length = std::sqrt(((q[0] * q[0] + q[1] * q[1]) + q[2] * q[2]) + q[3] * q[3]);
     if (length > 0)
       for (double& component : q) component /= length;
@@ -150,13 +158,66 @@ class Reader {
       const Lookup lookup = use_material(material, part);
       read_attributes(part, attributes, lookup);
       read_triangles(part, primitive, mode);
-      if (primitive.contains("targets")) notes_.insert("morph targets are ignored");
+      morph(part, list(primitive, "targets"), list(node, "weights").empty() ? list(mesh, "weights") : node["weights"]);
       if (node.contains("skin") && attributes.contains("JOINTS_0") && attributes.contains("WEIGHTS_0")) {
         apply_skin(part, attributes, gltf_integer(node["skin"]));
-      } else {
-        transform_part(part, world_[index]);
+        model_.parts.push_back(std::move(part));
+        continue;
       }
-      model_.parts.push_back(std::move(part));
+      for (const dmat4& instance : instances(index, part)) {
+        model_.parts.push_back(part);
+        transform_part(model_.parts.back(), world_[index] * instance);
+      }
+    }
+  }
+
+  // Where a node's mesh stands within the node: once, or as often as EXT_mesh_gpu_instancing says.
+  std::vector<dmat4> instances(std::size_t index, const ModelPart& part) {
+    static const json none = json::object();
+    const json& extensions = part_of(document_.element("nodes", index), "extensions", none);
+    const auto found = extensions.find("EXT_mesh_gpu_instancing");
+    if (found == extensions.end()) return {dmat4(1)};
+    const json& attributes = found->at("attributes");
+    std::size_t count = 0;
+    const auto read = [&](const char* name, std::uint32_t components) {
+      if (!attributes.contains(name)) return GltfDocument::Numbers{};
+      GltfDocument::Numbers numbers = document_.numbers(gltf_integer(attributes[name]));
+      if (numbers.components != components || (count > 0 && numbers.count() != count))
+        document_.fail("damaged: node " + std::to_string(index) + "'s instances have " +
+                       std::to_string(numbers.count()) + " times " + std::to_string(numbers.components) +
+                       " numbers of " + name);
+      count = numbers.count();
+      return numbers;
+    };
+    const auto moves = read("TRANSLATION", 3), turns = read("ROTATION", 4), scales = read("SCALE", 3);
+    if (count * (part.positions.size() + part.indices.size()) > kMostInstanced)
+      document_.fail("not supported: node " + std::to_string(index) + " has " + std::to_string(count) +
+                     " instances of a mesh of " + std::to_string(part.positions.size()) + " vertices");
+    std::vector<dmat4> result;
+    for (std::size_t i = 0; i < count; ++i) {
+      std::array<double, 3> scale{1, 1, 1}, move{};
+      std::array<double, 4> turn{0, 0, 0, 1};
+      if (!scales.values.empty()) std::copy_n(&scales.values[3 * i], 3, scale.begin());
+      if (!turns.values.empty()) std::copy_n(&turns.values[4 * i], 4, turn.begin());
+      if (!moves.values.empty()) std::copy_n(&moves.values[3 * i], 3, move.begin());
+      result.push_back(scaled_turned_moved(scale, turn, move));
+    }
+    return result;
+  }
+
+  // Adds the targets by the weights that they have at rest (3.7.2.2).
+  void morph(ModelPart& part, const json& targets, const json& weights) {
+    for (std::size_t t = 0; t < std::min(targets.size(), weights.size()); ++t) {
+      const auto weight = weights[t].get<double>();
+      const auto add = [&](const char* name, auto& to) {
+        if (weight == 0 || to.empty() || !targets[t].contains(name)) return;
+        const auto by = attribute(part, targets[t], name, 3);
+        for (std::size_t i = 0; i < by.count(); ++i)
+          for (int c = 0; c < 3; ++c) to[i][c] = float(to[i][c] + weight * by.values[3 * i + std::size_t(c)]);
+      };
+      add("POSITION", part.positions);
+      add("NORMAL", part.normals);
+      add("TANGENT", part.tangents);
     }
   }
 
@@ -255,19 +316,23 @@ class Reader {
         for (int k = 0; k < 16; ++k) bind[k / 4][k % 4] = inverse_bind.values[16 * j + std::size_t(k)];
       matrices.push_back(world_[joints[j]] * bind);
     }
-    const auto which = document_.integers(gltf_integer(attributes.at("JOINTS_0")));
-    const auto weights = attribute(part, attributes, "WEIGHTS_0", 4);
-    if (weights.components != 4 || which.size() != weights.values.size())
-      document_.fail("damaged: " + part.name + " has joints without weights");
-    std::vector<bool> mirrored(part.positions.size());
-    for (std::size_t i = 0; i < part.positions.size(); ++i) {
-      dmat4 sum(0);
-      for (std::size_t k = 4 * i; k < 4 * i + 4; ++k) {
+    std::vector<dmat4> sums(part.positions.size(), dmat4(0));
+    for (int set = 0; attributes.contains("JOINTS_" + std::to_string(set)); ++set) {  // four joints a vertex
+      const std::string name = "WEIGHTS_" + std::to_string(set);
+      const auto which = document_.integers(gltf_integer(attributes.at("JOINTS_" + std::to_string(set))));
+      const auto weights = attribute(part, attributes, name.c_str(), 4);
+      if (weights.components != 4 || which.size() != weights.values.size())
+        document_.fail("damaged: " + part.name + " has joints without weights");
+      for (std::size_t k = 0; k < which.size(); ++k) {
         if (weights.values[k] == 0) continue;
         if (which[k] >= matrices.size())
           document_.fail("damaged: " + part.name + " follows joint " + std::to_string(which[k]));
-        sum += double(weights.values[k]) * matrices[which[k]];
+        sums[k / 4] += double(weights.values[k]) * matrices[which[k]];
       }
+    }
+    std::vector<bool> mirrored(part.positions.size());
+    for (std::size_t i = 0; i < part.positions.size(); ++i) {
+      const dmat4& sum = sums[i];
       mirrored[i] = glm::determinant(glm::dmat3(sum)) < 0;
       ModelPart vertex;
       vertex.positions = {part.positions[i]};
@@ -282,7 +347,6 @@ class Reader {
     for (std::size_t t = 0; t + 2 < part.indices.size(); t += 3)
       if (mirrored[part.indices[t]] && mirrored[part.indices[t + 1]] && mirrored[part.indices[t + 2]])
         std::swap(part.indices[t + 1], part.indices[t + 2]);
-    notes_.insert("animations are ignored: skinned meshes are drawn at rest");
   }
 
   Lookup read_lookup(const json& owner, const char* key) {
@@ -304,6 +368,8 @@ class Reader {
       const int sampler = gltf_index(document_.element("textures", std::size_t(texture)), "sampler");
       if (sampler >= 0) {
         const json& object = document_.element("samplers", std::size_t(sampler));
+        if (gltf_number(object, "magFilter", 9729) == 9728)
+          notes_.insert("textures of nearest texels are filtered bilinearly");
         if (gltf_number(object, "wrapS", 10497) != 10497 || gltf_number(object, "wrapT", 10497) != 10497)
           notes_.insert("textures that clamp or mirror at their edges are repeated instead");
       }
@@ -343,6 +409,7 @@ class Reader {
       if (object.contains("emissiveTexture") ||
           object.value("emissiveFactor", std::array<double, 3>{}) != std::array<double, 3>{})
         notes_.insert("light that materials give is ignored");
+      if (object.contains("occlusionTexture")) notes_.insert("occlusion maps are ignored: what surfaces see is traced");
       if (object.value("doubleSided", false))
         notes_.insert("both sides of double-sided materials are lit as their front");
     }
@@ -372,44 +439,21 @@ class Reader {
     return images_[key] = int(model_.images.size()) - 1;
   }
 
-  // The first perspective camera of the scene.
+  // The first camera of the scene that sees something.
   void read_camera(std::size_t node) {
-    const json& camera = document_.element("cameras", gltf_integer(document_.element("nodes", node)["camera"]));
-    if (model_.camera || !camera.contains("perspective")) return;
-    const Camera result = placed_camera(camera["perspective"], world_[node]);
-    const std::string fault = camera_fault(result, world_[node]);
+    const auto index = gltf_integer(document_.element("nodes", node)["camera"]);
+    const json& camera = document_.element("cameras", index);
+    if (!camera.contains("perspective") && !camera.contains("orthographic")) return;
+    if (model_.camera) {
+      if (needs_camera_) notes_.insert("the first of its cameras is used; give another with --camera");
+      return;
+    }
+    const std::string fault = gltf_camera_fault(camera, world_[node]);
     if (fault.empty())
-      model_.camera = result;
+      model_.camera = gltf_camera(camera, world_[node]);
     else if (needs_camera_)
       document_.fail("the camera of node " + std::to_string(node) + " " + fault +
                      "; repair it, or give another with --camera");
-  }
-
-  static Camera placed_camera(const json& perspective, const dmat4& world) {
-    Camera result;
-    result.eye = dvec3(world[3]);
-    // Far from the origin, a target one metre away would lose the direction to rounding.
-    result.target =
-        result.eye - dvec3(world[2]) / glm::length(dvec3(world[2])) * std::max(1.0, glm::length(result.eye) * 1e-6);
-    result.up = dvec3(world[1]) / glm::length(dvec3(world[1]));
-    result.vertical_fov_degrees = gltf_number(perspective, "yfov", 1) * 180 / portable::kPi;
-    result.near_plane = gltf_number(perspective, "znear", 0.1);
-    result.far_plane = gltf_number(perspective, "zfar", std::numeric_limits<double>::infinity());
-    return result;
-  }
-
-  // Why nothing can be drawn by a camera placed so; empty: it can.
-  static std::string camera_fault(const Camera& camera, const dmat4& world) {
-    const double across = glm::length(dvec3(world[2])), upright = glm::length(dvec3(world[1]));
-    if (!(across > 0 && upright > 0 && std::isfinite(across) && std::isfinite(upright)))
-      return "has no direction: its node is scaled to nothing";
-    if (!(glm::length(camera.eye) <= kLargestCoordinate)) return "lies farther than 1e15 from the origin";
-    if (!(glm::length(glm::cross(camera.up, glm::normalize(camera.eye - camera.target))) > 1e-9))
-      return "looks along its up direction: its node is sheared flat";
-    if (!(camera.vertical_fov_degrees > 0 && camera.vertical_fov_degrees < 180 && camera.near_plane > 0 &&
-          camera.near_plane <= kLargestCoordinate && camera.far_plane > camera.near_plane))
-      return "sees nothing: its field of view or planes are damaged";
-    return "";
   }
 
   GltfDocument document_;

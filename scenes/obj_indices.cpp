@@ -8,7 +8,7 @@
 namespace twinshade {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r";
+constexpr std::string_view kBetweenCorners = " \t\r";
 constexpr std::array<std::string_view, 3> kKeywords = {"v", "vt", "vn"};
 constexpr std::array<const char*, 3> kNames = {"vertex", "texture coordinate (vt)", "normal (vn)"};
 
@@ -24,7 +24,7 @@ constexpr std::array<const char*, 3> kNames = {"vertex", "texture coordinate (vt
 }  // namespace
 
 void ObjIndices::read(std::string_view statement, const std::string& path, std::size_t line) {
-  const std::size_t end = std::min(statement.find_first_of(kBlanks), statement.size());
+  const std::size_t end = std::min(statement.find_first_of(kBetweenCorners), statement.size());
   const std::string_view keyword = statement.substr(0, end);
   for (std::size_t kind = 0; kind < kKinds; ++kind) counts_[kind] += keyword == kKeywords[kind];
   if (keyword != "f" && keyword != "l" && keyword != "p") return;
@@ -33,7 +33,7 @@ void ObjIndices::read(std::string_view statement, const std::string& path, std::
   rest = rest.substr(0, rest.find('#'));
   std::size_t kind = 0;  // of the next index of a corner, as 1/2/3
   for (std::size_t at = 0; at < rest.size();) {
-    if (rest[at] == '/' || kBlanks.find(rest[at]) != std::string_view::npos) {
+    if (rest[at] == '/' || kBetweenCorners.find(rest[at]) != std::string_view::npos) {
       kind = rest[at] == '/' ? kind + 1 : 0;
       ++at;
       continue;

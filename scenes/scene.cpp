@@ -81,6 +81,7 @@ std::string scene_hash(const Scene& scene) {
   add_value(hash, scene.camera.target);
   add_value(hash, scene.camera.up);
   add_value(hash, scene.camera.vertical_fov_degrees);
+  if (scene.camera.orthographic_height > 0) add_value(hash, scene.camera.orthographic_height);
   add_value(hash, scene.camera.near_plane);
   add_value(hash, scene.camera.far_plane);
   add_value(hash, std::uint8_t(scene.procedural_coefficients));

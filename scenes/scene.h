@@ -25,6 +25,7 @@ struct Material {
 struct Camera {
   glm::dvec3 eye{0, 1.6, 5}, target{0, 1, 0}, up{0, 1, 0};
   double vertical_fov_degrees = 55;
+  double orthographic_height = 0;  // metres from the view's lower edge to its upper, without perspective; 0: with it
   double near_plane = 0.1, far_plane = 200;
 };
 

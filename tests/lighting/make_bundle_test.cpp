@@ -50,6 +50,21 @@ TEST_CASE("camera: the target is in the middle, near and far planes are the ends
   CHECK(right.x == doctest::Approx(right.w).epsilon(1e-12));  // aspect 2
 }
 
+TEST_CASE("an orthographic camera: as high everywhere, depth in proportion to distance") {
+  Camera camera;
+  camera.eye = {1, 2, 3}, camera.target = {4, 2, -1};
+  camera.near_plane = 0, camera.far_plane = 50, camera.orthographic_height = 10;
+  const CameraTransform transform(camera, 2);
+  const glm::dvec3 forward = glm::normalize(camera.target - camera.eye), up(0, 1, 0);
+  for (const double distance : {0.0, 12.5, 50.0}) {
+    const glm::dvec4 at = transform.clip(camera.eye + forward * distance + up * 5.0 + glm::cross(forward, up) * 10.0);
+    CHECK(at.x == doctest::Approx(1).epsilon(1e-12));
+    CHECK(at.y == doctest::Approx(1).epsilon(1e-12));
+    CHECK(at.z == doctest::Approx(distance / 25 - 1).epsilon(1e-12));
+    CHECK(at.w == 1);
+  }
+}
+
 TEST_CASE("cameras that see nothing are refused") {
   for (int change = 0; change < 5; ++change) {
     Camera camera;

@@ -122,6 +122,8 @@ std::string cache_folder() {
     folder = fs::path(home) / ".cache" / "twinshade";
   else
     throw UserError("no cache folder: set HOME, XDG_CACHE_HOME or TWINSHADE_CACHE");
+  // Compilers take such a path for an option, or for a file of options.
+  if (const char first = folder.native()[0]; first == '-' || first == '@') folder = "." / folder;
   std::error_code code;
   fs::create_directories(folder, code);
   if (code) throw UserError(folder.string() + ": cannot be created: " + code.message() + "; set TWINSHADE_CACHE");

@@ -128,6 +128,17 @@ TEST_CASE("a relative XDG_CACHE_HOME is ignored") {
   for (std::size_t k = 0; k < 2; ++k) before[k].empty() ? unsetenv(names[k]) : setenv(names[k], before[k].c_str(), 1);
 }
 
+TEST_CASE("a cache whose name begins as an option does is no option to compilers") {
+  const Cache cache;
+  const fs::path before = fs::current_path();
+  fs::current_path(cache.folder);
+  for (const char* name : {"-cache", "@cache"}) {
+    setenv("TWINSHADE_CACHE", name, 1);
+    CHECK(cache_folder() == std::string("./") + name);
+  }
+  fs::current_path(before);
+}
+
 TEST_CASE("the size of the cache is read with its unit, and nonsense is refused by name") {
   const Cache cache;
   CHECK(cache_size_limit() == std::uint64_t{2} << 30);

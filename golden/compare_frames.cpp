@@ -48,13 +48,6 @@ Difference discrete_difference(Layer layer, std::uint32_t x, std::uint32_t y, st
   return d;
 }
 
-std::uint64_t distance(Scalar scalar, float a, float b) {
-  if (scalar == Scalar::f32) return ulp_distance(a, b);
-  const double x = value_of(scalar, std::bit_cast<std::uint32_t>(a)),
-               y = value_of(scalar, std::bit_cast<std::uint32_t>(b));
-  return std::uint64_t(std::abs(x - y));
-}
-
 Difference value_difference(Layer layer, std::uint32_t x, std::uint32_t y, std::uint32_t component, Scalar scalar,
                             float a, float b) {
   Difference d;
@@ -62,7 +55,7 @@ Difference value_difference(Layer layer, std::uint32_t x, std::uint32_t y, std::
   d.x = x, d.y = y, d.component = component, d.scalar = scalar;
   d.a_bits = std::bit_cast<std::uint32_t>(a), d.b_bits = std::bit_cast<std::uint32_t>(b);
   d.a = value_of(scalar, d.a_bits), d.b = value_of(scalar, d.b_bits);
-  d.ulp = distance(scalar, a, b);
+  d.ulp = value_distance(scalar, a, b);
   return d;
 }
 
@@ -146,7 +139,7 @@ class Walk {
       const float a = a_.color[pixel_ * 4 + c], b = b_.color[pixel_ * 4 + c];
       compare_value(kColor, c, a_.color_scalar, a, b);
       if (!covered) continue;
-      const std::uint64_t ulp = distance(a_.color_scalar, a, b);
+      const std::uint64_t ulp = value_distance(a_.color_scalar, a, b);
       ++result_.ulp_histogram[histogram_bin(ulp)];
       result_.max_ulp = std::max(result_.max_ulp, ulp);
     }
@@ -185,6 +178,13 @@ double value_of(Scalar scalar, std::uint32_t bits) {
 bool same_value(Scalar scalar, float a, float b) {
   return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b) ||
          (scalar == Scalar::f32 && std::isnan(a) && std::isnan(b));
+}
+
+std::uint64_t value_distance(Scalar scalar, float a, float b) {
+  if (scalar == Scalar::f32) return ulp_distance(a, b);
+  const double x = value_of(scalar, std::bit_cast<std::uint32_t>(a)),
+               y = value_of(scalar, std::bit_cast<std::uint32_t>(b));
+  return std::uint64_t(std::abs(x - y));
 }
 
 std::uint64_t ulp_distance(float a, float b) {

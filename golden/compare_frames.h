@@ -51,6 +51,9 @@ double value_of(Scalar scalar, std::uint32_t bits);
 // processor's choice.
 bool same_value(Scalar scalar, float a, float b);
 
+// Distance of two values' bits: ulp_distance of floats, between integers their difference.
+std::uint64_t value_distance(Scalar scalar, float a, float b);
+
 // Distance in ULP; +0 and -0 are 0 apart for this count but are different bits. UINT64_MAX if exactly one is NaN.
 std::uint64_t ulp_distance(float a, float b);
 

@@ -106,7 +106,7 @@ Rgb difference_color(const Frame& a, const Frame& b, std::size_t pixel) {
   std::uint64_t worst = 0;
   for (int c = 0; c < 4; ++c)  // zeros of different sign are 0 ULP apart and yet differ
     if (!same_value(a.color_scalar, color_a[c], color_b[c]))
-      worst = std::max({worst, std::uint64_t{1}, ulp_distance(color_a[c], color_b[c])});
+      worst = std::max({worst, std::uint64_t{1}, value_distance(a.color_scalar, color_a[c], color_b[c])});
   if (worst > 0) return heat(worst);
   if (!same_value(Scalar::f32, a.depth[pixel], b.depth[pixel])) return {0, 220, 220};
   const std::size_t pixels = std::size_t(a.width) * a.height;

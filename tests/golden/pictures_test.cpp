@@ -3,6 +3,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include <doctest/doctest.h>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <cstring>
@@ -166,6 +167,25 @@ TEST_CASE("the picture of differences shows layer and size at the pixel, y up") 
   CHECK((pixel(5)[0] == 1 && pixel(5)[2] == 0));
   CHECK((pixel(6)[0] == 1 && pixel(6)[1] == 0 && pixel(6)[2] == 1));
   CHECK(pixel(7)[0] == pixel(0)[0]);
+}
+
+TEST_CASE(
+    "the picture of differences between integers shows how far apart they are, not what their bits are as floats") {
+  const Folder folder;
+  const auto bits = [](std::int32_t value) { return std::bit_cast<float>(value); };
+  Frame a = frame_of(3, 1);
+  a.color_scalar = Scalar::i32;
+  for (float& v : a.color) v = bits(0);
+  Frame b = a;
+  b.color[0] = bits(-1);       // a NaN, were it a float
+  b.color[4] = bits(1 << 20);  // denormals
+  b.color[8] = bits(1), a.color[8] = bits(-1);
+  write_difference_picture(folder.file("d.png"), a, b);
+  const Image image = read(folder.file("d.png"));
+  const auto pixel = [&](std::size_t x) { return &image.values[x * 3]; };
+  CHECK((pixel(0)[2] == 1 && pixel(0)[0] < 0.5f));                  // blue: 1
+  CHECK((pixel(1)[0] > pixel(1)[1] && pixel(1)[0] > pixel(1)[2]));  // red: 2^16 and more
+  CHECK(pixel(2)[0] < 0.5f);                                        // 2
 }
 
 }  // namespace twinshade

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>
@@ -74,8 +75,9 @@ std::string seconds_text(double seconds) {
 }
 
 Channel::Clock::time_point deadline_after(double seconds) {
-  return Channel::Clock::now() +
-         std::chrono::duration_cast<Channel::Clock::duration>(std::chrono::duration<double>(seconds));
+  constexpr double kForever = 1e9;  // more nanoseconds than a time point holds would be a deadline in the past
+  return Channel::Clock::now() + std::chrono::duration_cast<Channel::Clock::duration>(
+                                     std::chrono::duration<double>(std::min(seconds, kForever)));
 }
 
 }  // namespace

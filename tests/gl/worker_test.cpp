@@ -119,6 +119,12 @@ TEST_CASE("a hang is ended at the time limit, and the next draw works") {
   CHECK(renderer->draw(test::quad(8, 8), shader(kPlain), {}).coverage[0] == 1);
 }
 
+TEST_CASE("a time limit longer than any clock holds is none") {
+  DrawOptions options;
+  options.time_limit_seconds = 1e300;
+  CHECK(make_gl_renderer(GlBackend::egl)->draw(test::quad(8, 8), shader(kPlain), options).coverage[0] == 1);
+}
+
 TEST_CASE("a worker whose parent is killed ends, though it is drawing") {
   const pid_t parent = fork();
   REQUIRE(parent >= 0);

@@ -92,7 +92,10 @@ std::string undrawn(const std::string& keyword, const std::string& rest) {
   if ((keyword == "d" && number && value < 1) || (keyword == "tr" && number && value > 0))
     return "transparent materials are drawn opaque";
   if (keyword == "map_d") return "cut-out materials are drawn opaque";
-  if (keyword == "ke" && number && value > 0) return "light that materials give (Ke) is ignored";
+  if ((keyword == "pm" && number && value > 0) || keyword == "map_pm")
+    return "metals (Pm) are drawn as matt surfaces of their Kd";
+  if ((keyword == "ke" && number && value > 0) || keyword == "map_ke")
+    return "light that materials give (Ke) is ignored";
   return "";
 }
 

@@ -151,6 +151,18 @@ void add_statement(std::string& text, std::string_view statement, const std::str
   text += has_indices ? statement.substr(0, statement.find('#')) : statement;
 }
 
+std::string undrawn_statement(std::string_view statement) {
+  const std::string_view keyword =
+      statement.substr(0, std::min(statement.find_first_of(kBetweenWords), statement.size()));
+  if (keyword == "l" || keyword == "p") return "points and lines are not drawn";
+  if (keyword == "curv" || keyword == "curv2" || keyword == "surf") return "curves and curved surfaces are not drawn";
+  if (keyword != "v") return "";
+  std::size_t words = 0;
+  for (std::size_t at = 0; at < statement.size() && statement[at] != '#'; ++at)
+    words += !is_blank(statement[at]) && (at == 0 || is_blank(statement[at - 1]));
+  return words == 7 ? "vertex colours are ignored" : "";
+}
+
 void add_colour(std::string& text, std::string_view numbers, const std::string& path, std::size_t line) {
   std::string added;
   if (add_numbers(added, numbers, kColour, path, line) == 1) {

@@ -30,6 +30,9 @@ class ObjLines {
 // vertices than they should: those are refused. UserError naming `path` and the line.
 void add_statement(std::string& text, std::string_view statement, const std::string& path, std::size_t number);
 
+// What a statement asks for that is not drawn; empty: nothing, or what is refused elsewhere.
+std::string undrawn_statement(std::string_view statement);
+
 // Adds Kd with the numbers of a colour of a material library: one stands for three. UserError naming `path` and the
 // line where there is another count, or none.
 void add_colour(std::string& text, std::string_view numbers, const std::string& path, std::size_t line);

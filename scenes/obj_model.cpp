@@ -131,6 +131,7 @@ class Reader {
     std::string text;
     text.reserve(content.size());
     ObjIndices indices;
+    std::set<std::string> undrawn;
     for (ObjLines lines(content); lines.next(); text += '\n') {
       const std::string_view line = lines.statement();
       const std::string_view rest = line.substr(std::min(kLibrary.size(), line.size()));
@@ -138,6 +139,7 @@ class Reader {
         indices.read(line, path_, lines.number());
         if (const std::string name = name_behind("usemtl", line); !name.empty()) used_.emplace(name, lines.number());
         add_statement(text, line, path_, lines.number());
+        if (std::string what = undrawn_statement(line); !what.empty()) undrawn.insert(std::move(what));
         continue;
       }
       for (const std::string& name : library_names(trimmed(std::string(rest.substr(0, rest.find(" #")))))) {
@@ -159,6 +161,7 @@ class Reader {
       }
     }
     indices.check(path_);
+    model_.notes.insert(model_.notes.end(), undrawn.begin(), undrawn.end());
     if (!library_missing_) note_unknown_materials();  // else that has been said
     return text;
   }

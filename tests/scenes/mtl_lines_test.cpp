@@ -72,6 +72,12 @@ TEST_CASE("a colour of one number is grey, of three as they are; others are refu
   CHECK(notes == Notes{"colours as xyz are ignored: their materials are plain", "cut-out materials are drawn opaque",
                        "colours as spectral are ignored: their materials are plain",
                        "transparent materials are drawn opaque"});
+  notes.clear();
+  plain("Pm 0\nKe 0 0 0\n", notes);
+  CHECK(notes.empty());
+  plain("Pm 1\nmap_Ke a.png\n", notes);
+  CHECK(notes ==
+        Notes{"metals (Pm) are drawn as matt surfaces of their Kd", "light that materials give (Ke) is ignored"});
 }
 
 TEST_CASE("a picture of colours without a colour beside it is drawn as it is") {

@@ -54,6 +54,14 @@ TEST_CASE("statements become what assimp reads") {
   CHECK(added("vp 1") == "vp 1");
 }
 
+TEST_CASE("statements that ask for what is not drawn say so") {
+  CHECK(undrawn_statement("v 1 2 3\t.1  .2 1 # red") == "vertex colours are ignored");
+  CHECK(undrawn_statement("l 1 2") == "points and lines are not drawn");
+  CHECK(undrawn_statement("surf 0 1 0 1 1 2 3 4") == "curves and curved surfaces are not drawn");
+  for (const char* drawn : {"", "v 1 2 3", "v 1 2 3 1 # a b c", "vn 1 2 3", "vt 1 2 3", "f 1 2 3 4 5 6", "usemtl l"})
+    CHECK(undrawn_statement(drawn) == "");
+}
+
 TEST_CASE("vertices with other counts of numbers, or none, are refused with file and line") {
   const auto refused = [](const std::string& statement) { return user_error([&] { added(statement); }); };
   const std::string v = ": write v with 3 numbers (x y z), 4 (x y z w) or 6 (x y z r g b)";

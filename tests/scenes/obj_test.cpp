@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -133,6 +134,15 @@ TEST_CASE("what is missing from an OBJ is said or refused") {
   CHECK(user_error([&] { load_scene(folder.name("none.obj")); }).find("none.obj") != std::string::npos);
   CHECK(user_error([&] { load_scene(folder.name("cube.obj"), 1000); }).find("--triangles") != std::string::npos);
   CHECK(user_error([&] { load_scene(folder.name("cube.fbx")); }).find(".gltf, .glb or .obj") != std::string::npos);
+}
+
+TEST_CASE("an OBJ's vertex colours and lines are left out, each said once") {
+  TemporaryFolder folder;
+  const std::string coloured = "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\nl 1 2\nl 2 3\n";
+  const Scene scene = load_scene(folder.write("m.obj", coloured));
+  CHECK(scene.triangle_count() == 1);
+  CHECK(std::count(scene.notes.begin(), scene.notes.end(), "vertex colours are ignored") == 1);
+  CHECK(std::count(scene.notes.begin(), scene.notes.end(), "points and lines are not drawn") == 1);
 }
 
 TEST_CASE("an OBJ too far out or too small to be drawn is refused by name, from 1e-14 to 1e14 it is framed") {

@@ -7,11 +7,13 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <new>
 #include <numeric>
 #include <sstream>
 #include <stdexcept>
@@ -142,7 +144,7 @@ std::vector<int> channels_read(const Names& names, bool is_exr) {
   return alpha >= 0 ? std::vector<int>{grey, alpha} : std::vector<int>{grey};
 }
 
-DecodedImage read_all(OIIO::ImageInput& input) {
+DecodedImage read_all(OIIO::ImageInput& input, std::uint64_t most) {
   const OIIO::ImageSpec spec = input.spec();
   if (spec.width < 1 || spec.height < 1 || spec.width > kLargestSide || spec.height > kLargestSide || spec.depth > 1 ||
       double(spec.width) * spec.height * spec.nchannels > kMostSamples)
@@ -163,7 +165,6 @@ DecodedImage read_all(OIIO::ImageInput& input) {
   image.channels = std::uint32_t(order.size());
   image.bits = spec.format == OIIO::TypeDesc::UINT8 ? 8 : spec.format == OIIO::TypeDesc::UINT16 ? 16 : 32;
   const std::size_t pixels = std::size_t(image.width) * image.height;
-  image.texels.resize(pixels * image.channels);
   const auto pick = [&](const auto* raw, double largest) {
     for (std::size_t p = 0; p < pixels; ++p)
       for (std::uint32_t c = 0; c < image.channels; ++c)
@@ -171,10 +172,17 @@ DecodedImage read_all(OIIO::ImageInput& input) {
             float(double(raw[p * std::size_t(spec.nchannels) + std::size_t(order[c])]) / largest);
   };
   const auto read = [&](auto type, OIIO::TypeDesc format, double largest) {
-    std::vector<decltype(type)> raw(pixels * std::size_t(spec.nchannels));
-    if (!input.read_image(0, 0, 0, spec.nchannels, format, raw.data())) refuse(input.geterror());
+    const std::size_t samples = pixels * std::size_t(spec.nchannels);
+    if (samples * sizeof type + pixels * image.channels * sizeof(float) > most) throw std::bad_alloc();
+    // Zeros of which the system makes pages where something is written: a few bytes may claim any size.
+    using Sample = decltype(type);
+    const std::unique_ptr<Sample, decltype(&std::free)> raw(static_cast<Sample*>(std::calloc(samples, sizeof(Sample))),
+                                                            &std::free);
+    if (!raw) throw std::bad_alloc();
+    if (!input.read_image(0, 0, 0, spec.nchannels, format, raw.get())) refuse(input.geterror());
     if (input.has_error()) refuse(input.geterror());
-    pick(raw.data(), largest);
+    image.texels.resize(pixels * image.channels);
+    pick(raw.get(), largest);
   };
   if (image.bits == 8)
     read(std::uint8_t{}, OIIO::TypeDesc::UINT8, 255);
@@ -185,27 +193,32 @@ DecodedImage read_all(OIIO::ImageInput& input) {
   return image;
 }
 
-DecodedImage read_file(const std::string& path) {
-  const StderrOfLibraries quiet;
-  OIIO::ImageSpec config;
-  config.attribute("oiio:UnassociatedAlpha", 1);
-  if (path.find('?') != std::string::npos)
-    refuse("the image library takes what follows a '?' in a name for options; rename it");
-  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path, &config);
+// By its name: open() would try what else the library reads on a damaged file.
+std::unique_ptr<OIIO::ImageInput> reader_of(const std::string& format) {
+  std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
   if (!input) refuse(OIIO::geterror());
-  return read_all(*input);
+  return input;
 }
 
-DecodedImage read_memory(std::string_view bytes, bool png) {
+DecodedImage read_opened(OIIO::ImageInput& input, const std::string& name, std::uint64_t most) {
+  OIIO::ImageSpec config, spec;
+  config.attribute("oiio:UnassociatedAlpha", 1);
+  if (!input.open(name, spec, config)) refuse(input.geterror());
+  return read_all(input, most);
+}
+
+DecodedImage read_file(const std::string& path, const std::string& format, std::uint64_t most) {
+  const StderrOfLibraries quiet;
+  return read_opened(*reader_of(format), path, most);
+}
+
+DecodedImage read_memory(std::string_view bytes, const std::string& format, std::uint64_t most) {
   const StderrOfLibraries quiet;
   OIIO::Filesystem::IOMemReader reader(const_cast<char*>(bytes.data()), bytes.size());
-  OIIO::Filesystem::IOProxy* proxy = &reader;
-  OIIO::ImageSpec config;
-  config.attribute("oiio:UnassociatedAlpha", 1);
-  config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(png ? "memory.png" : "memory.jpg", &config);
-  if (!input) refuse(OIIO::geterror());
-  return read_all(*input);
+  const std::unique_ptr<OIIO::ImageInput> input = reader_of(format);
+  if (!input->supports("ioproxy") || !input->set_ioproxy(&reader))
+    refuse("this format is read from files alone, not from a pipe");
+  return read_opened(*input, "memory." + format, most);
 }
 
 void write_file(const std::string& path, const ImageToWrite& image) {
@@ -237,6 +250,6 @@ void write_file(const std::string& path, const ImageToWrite& image) {
 }  // namespace
 }  // namespace twinshade
 
-extern "C" __attribute__((visibility("default"))) const twinshade::ImageCodec twinshade_image_codec;
-const twinshade::ImageCodec twinshade_image_codec = {twinshade::read_file, twinshade::read_memory,
-                                                     twinshade::write_file};
+extern "C" __attribute__((visibility("default"))) const twinshade::ImageCodec twinshade_image_codec_2;
+const twinshade::ImageCodec twinshade_image_codec_2 = {twinshade::read_file, twinshade::read_memory,
+                                                       twinshade::write_file};

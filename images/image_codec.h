@@ -3,6 +3,7 @@
 // again.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -10,15 +11,17 @@
 
 namespace twinshade {
 
-// Functions throw std::runtime_error with the reason.
+// Functions throw std::runtime_error with the reason. format: as OpenImageIO calls it; no other is tried. most: bytes
+// that the picture may take, std::bad_alloc where it would take more.
 struct ImageCodec {
-  DecodedImage (*read_file)(const std::string& path);
-  DecodedImage (*read_memory)(std::string_view bytes, bool png);  // PNG, else JPEG
+  DecodedImage (*read_file)(const std::string& path, const std::string& format, std::uint64_t most);
+  DecodedImage (*read_memory)(std::string_view bytes, const std::string& format, std::uint64_t most);
   void (*write_file)(const std::string& path, const ImageToWrite& image);
 };
 
-// The module's symbol, of type const ImageCodec.
-constexpr const char* kImageCodecSymbol = "twinshade_image_codec";
+// The module's symbol, of type const ImageCodec. Its number goes up where that changes: a module of another build is
+// refused, not called.
+constexpr const char* kImageCodecSymbol = "twinshade_image_codec_2";
 
 // UserError naming where the module was looked for, or what it lacks.
 const ImageCodec& image_codec();

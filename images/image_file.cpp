@@ -7,13 +7,17 @@
 #include <filesystem>
 #include <new>
 #include <stdexcept>
+#include <utility>
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/memory.h"
 #include "images/image_codec.h"
 
 namespace twinshade {
 namespace {
+
+using namespace std::string_view_literals;
 
 constexpr const char* kNoMemory = "there is not enough memory for it; make it smaller";
 
@@ -25,6 +29,26 @@ constexpr const char* kNoMemory = "there is not enough memory for it; make it sm
 
 bool is_png(std::string_view bytes) { return bytes.substr(0, 4) == "\x89PNG"; }
 bool is_jpeg(std::string_view bytes) { return bytes.substr(0, 2) == "\xff\xd8"; }
+
+bool is_pnm(std::string_view bytes) {
+  return bytes.size() > 2 && bytes[0] == 'P' && std::string_view("123456fF").find(bytes[1]) != std::string_view::npos &&
+         std::string_view(" \t\r\n#").find(bytes[2]) != std::string_view::npos;
+}
+
+// As OpenImageIO calls them; empty: none that is read. What else the library reads is hardly met, and less careful with
+// damage: some of it ends the program.
+std::string format_of(std::string_view bytes, const std::string& path) {
+  constexpr std::pair<std::string_view, const char*> kBeginnings[] = {
+      {"\x89PNG", "png"},  {"\xff\xd8", "jpeg"}, {"v/1\x01", "openexr"}, {"#?", "hdr"}, {"II*\0"sv, "tiff"},
+      {"MM\0*"sv, "tiff"}, {"II+\0"sv, "tiff"},  {"MM\0+"sv, "tiff"},    {"BM", "bmp"}, {"GIF8", "gif"},
+      {"DDS ", "dds"},     {"8BPS", "psd"},      {"\x01\xda", "sgi"}};
+  for (const auto& [beginning, format] : kBeginnings)
+    if (bytes.substr(0, beginning.size()) == beginning) return format;
+  if (bytes.substr(0, 4) == "RIFF" && bytes.substr(std::min<std::size_t>(bytes.size(), 8), 4) == "WEBP") return "webp";
+  if (is_pnm(bytes)) return "pnm";
+  const std::string ending = lower_case_ending(path);  // all that tells these
+  return ending == ".tga" || ending == ".tpic" ? "targa" : ending == ".hdr" || ending == ".rgbe" ? "hdr" : "";
+}
 
 std::uint32_t big_endian(std::string_view bytes, std::size_t at) {
   std::uint32_t value = 0;
@@ -72,10 +96,34 @@ bool jpeg_is_whole(std::string_view bytes) {
   return false;
 }
 
-void check_whole(std::string_view bytes, const std::string& name) {
+std::uint32_t little_endian(std::string_view bytes, std::size_t at) { return __builtin_bswap32(big_endian(bytes, at)); }
+
+// Which bits are red, green, blue and, where there is one, alpha, is in masks of the header, of which none is empty:
+// the library would look for their lowest bit without end (Microsoft, "DDS_PIXELFORMAT structure").
+bool dds_masks_are_whole(std::string_view bytes) {
+  constexpr std::size_t kFlags = 80, kMasks = 92, kHeader = 128;
+  constexpr std::uint32_t kHasAlpha = 0x1, kHasMasks = 0x40;
+  if (bytes.size() < kHeader) return false;
+  const std::uint32_t flags = little_endian(bytes, kFlags);
+  const std::size_t masks = (flags & kHasMasks) == 0 ? 0 : (flags & kHasAlpha) == 0 ? 3 : 4;
+  for (std::size_t i = 0; i < masks; ++i)
+    if (little_endian(bytes, kMasks + 4 * i) == 0) return false;
+  return true;
+}
+
+// Returns the format.
+std::string check_whole(std::string_view bytes, const std::string& name) {
   if (bytes.empty()) refuse(name, "the file is empty");
-  if ((is_png(bytes) && !png_is_whole(bytes)) || (is_jpeg(bytes) && !jpeg_is_whole(bytes)))
+  std::string format = format_of(bytes, name);
+  if (format.empty())
+    refuse(
+        name,
+        "it begins as no PNG, JPEG, OpenEXR, Radiance, TIFF, BMP, GIF, WebP, PNM, DDS, PSD or SGI file does, nor is it "
+        "called .tga; convert it");
+  if ((is_png(bytes) && !png_is_whole(bytes)) || (is_jpeg(bytes) && !jpeg_is_whole(bytes)) ||
+      (format == "dds" && !dds_masks_are_whole(bytes)))
     refuse(name, "the file is truncated or damaged");
+  return format;
 }
 
 // Those behind the = of a line; 0 where there is none.
@@ -129,13 +177,15 @@ std::string pixel_name(std::size_t index, std::uint32_t width) {
 
 DecodedImage decode_image_file(const std::string& path) {
   try {
-    std::array<double, 3> exposure;
-    {
-      const std::string bytes = read_file(path);
-      check_whole(bytes, path);
-      exposure = radiance_exposure(bytes, path);
-    }
-    DecodedImage image = image_codec().read_file(path);
+    std::string bytes = read_file(path);
+    const std::string format = check_whole(bytes, path);
+    const std::array<double, 3> exposure = radiance_exposure(bytes, path);
+    std::error_code code;
+    const bool from_file = std::filesystem::is_regular_file(path, code);  // a pipe gives its bytes once
+    if (from_file) bytes = std::string();
+    const std::uint64_t most = available_memory();
+    DecodedImage image =
+        from_file ? image_codec().read_file(path, format, most) : image_codec().read_memory(bytes, format, most);
     if (exposure != std::array<double, 3>{1, 1, 1})
       for (std::size_t i = 0; i < image.texels.size(); ++i)
         image.texels[i] = float(double(image.texels[i]) / exposure[i % image.channels % 3]);
@@ -151,9 +201,9 @@ DecodedImage decode_image_file(const std::string& path) {
 
 DecodedImage decode_image_memory(std::string_view bytes, const std::string& name) {
   if (!is_png(bytes) && !is_jpeg(bytes)) refuse(name, "neither PNG nor JPEG");
-  check_whole(bytes, name);
+  const std::string format = check_whole(bytes, name);
   try {
-    return image_codec().read_memory(bytes, is_png(bytes));
+    return image_codec().read_memory(bytes, format, available_memory());
   } catch (const std::runtime_error& error) {
     refuse(name, error.what());
   } catch (const std::bad_alloc&) {

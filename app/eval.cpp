@@ -8,6 +8,7 @@
 #include <iterator>
 #include <memory>
 #include <new>
+#include <optional>
 #include <utility>
 
 #include "app/eval_report.h"
@@ -77,7 +78,7 @@ struct EvalVerb {
   std::string shader, cases_file, junit_file, annotate;
   SourceOptions source;
   std::vector<std::string> backends{"cpu", "egl"};
-  Number number = natural_number(machine_isa());
+  std::optional<Number> number;  // none: lanes
   EvaluatorOptions options;
 
   int run() const {
@@ -132,7 +133,8 @@ struct EvalVerb {
     std::vector<EvaluationTarget> targets;
     for (const std::string& name : backends)
       for (const Backend backend : kBackends)
-        if (name == backend_name(backend)) targets.push_back({backend, number, {}});
+        if (name == backend_name(backend))
+          targets.push_back({backend, number.value_or(natural_number(machine_isa())), {}});
     return targets;
   }
 

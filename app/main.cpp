@@ -76,7 +76,7 @@ int run(int argc, char** argv) {
   }
   for (const Verb& verb : verbs)
     if (verb.command->parsed()) {
-      require_output_names(*verb.command);
+      require_names(*verb.command);
       return run_verb(verb);
     }
   return 2;

@@ -426,13 +426,15 @@ void require_machine_options(const CLI::App& command, const std::vector<std::str
   require(machines.size() > (has("cpu") ? 1 : 0), "--time-limit", "OpenGL", "egl, osmesa, softpipe or gpu");
 }
 
-void require_output_names(const CLI::App& command) {
-  for (const char* name : {"-o", "--json", "--junit"}) {
+void require_names(const CLI::App& command) {
+  const auto require = [&](const char* name, const char* use) {
     const CLI::Option* option = command.get_option_no_throw(name);
     if (option && option->count() > 0 && option->as<std::string>().empty())
-      throw UserError(fmt::format("{} '': the name is empty; name the {} to write", name,
-                                  option->get_type_name() == "DIR" ? "folder" : "file"));
-  }
+      throw UserError(fmt::format("{} '': the name is empty; name the {} to {}", name,
+                                  option->get_type_name() == "DIR" ? "folder" : "file", use));
+  };
+  for (const char* name : {"-o", "--json", "--junit"}) require(name, "write");
+  for (const char* name : {"--shader", "--cases", "--inputs", "--env2"}) require(name, "read, or leave the option out");
 }
 
 void apply(const CommonOptions& options) {

@@ -123,9 +123,9 @@ void add_picture_options(CLI::App& command, PictureOptions& options);
 // UserError for an option of the CPU or of OpenGL that was given and that none of the chosen machines has.
 void require_machine_options(const CLI::App& command, const std::vector<std::string>& machines);
 
-// UserError for an option of a file or folder to write whose name is empty, as of a script's variable that is not set:
-// it is not the same as to leave the option out.
-void require_output_names(const CLI::App& command);
+// UserError for an option of a file or folder to write, or of a file to read, whose name is empty, as of a script's
+// variable that is not set: it is not the same as to leave the option out.
+void require_names(const CLI::App& command);
 
 // Sets the thread count; to be called once the options are parsed.
 void apply(const CommonOptions& options);

@@ -192,6 +192,7 @@ TEST_CASE("an instruction set that is unknown, or that TWINSHADE_ISA rules out, 
   ::setenv("TWINSHADE_ISA", "sse9", 1);
   check_refused(small_quad({"render"}, {}), {"TWINSHADE_ISA=sse9", "baseline, avx2, avx512"});
   check_refused({"bench", "quad"}, {"TWINSHADE_ISA=sse9"});
+  CHECK(run_twinshade({"eval", "--help"}).code == 0);
   ::setenv("TWINSHADE_ISA", "baseline", 1);
   check_refused(small_quad({"render"}, {"--isa", "avx512"}), {"avx512"});
   const Run run = run_twinshade(small_quad({"render"}, {"--technique", "lightmap", "--json", "-"}));
@@ -352,6 +353,16 @@ TEST_CASE("an empty name of what to write is refused by its option") {
   check_refused({"list", "--json", ""}, {"--json '': the name is empty; name the file to write"});
   check_refused({"check", "a.frag", "--junit", ""}, {"--junit '': the name is empty"});
   check_refused({"eval", "a.frag", "--cases", "a.json", "--junit", ""}, {"--junit '': the name is empty"});
+}
+
+TEST_CASE(
+    "an empty name of what to read is refused: another shader's frames would pass for those of the one that is meant") {
+  for (const char* verb : {"render", "compare", "bench"}) {
+    check_refused({verb, "quad", "--shader", ""}, {"--shader '': the name is empty; name the file to read"});
+    check_refused({verb, "quad", "--env2", ""}, {"--env2 '': the name is empty"});
+  }
+  check_refused({"check", "a.frag", "--inputs", ""}, {"--inputs '': the name is empty"});
+  check_refused({"eval", "a.frag", "--cases", ""}, {"--cases '': the name is empty"});
 }
 
 TEST_CASE("a refusal makes no folder of results, and what would keep it from being made is said before any work") {

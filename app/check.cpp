@@ -74,6 +74,8 @@ struct CheckVerb {
   }
 
   int once(const Output& output, const std::vector<std::string>& paths) {
+    if (watch)  // before they are read: what is saved while the check runs is another change
+      for (const std::string& file : files_read()) remember(file);
     Evaluator evaluator(evaluator_options);
     const std::vector<CheckedShader> results = check_shaders(evaluator, paths, options, [&](std::size_t index) {
       output.progress(fmt::format("{} ({} of {})", paths[index], index + 1, paths.size()));
@@ -87,9 +89,6 @@ struct CheckVerb {
         if (check.not_run.empty()) provenance.add(backend_name(check.target.backend), check.provenance);
       list.push_back(check_json(shader, options.make_exact));
       cases.push_back(check_junit(shader, options.make_exact));
-      for (const std::string& file : shader.files) remember(file);
-      remember(shader.path);
-      remember(options.inputs_file.empty() ? shader.path + ".inputs" : options.inputs_file);
     }
     output.json({{"provenance", provenance.json()},
                  {"rows", options.generate.rows},
@@ -133,6 +132,7 @@ struct CheckVerb {
       }
       if (!changed) continue;
       output.text("\n");
+      times_.clear();
       once(output, shaders);
     }
   }

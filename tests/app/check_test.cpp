@@ -1,6 +1,11 @@
 // `check`, run as a user would.
 #include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <chrono>
+#include <filesystem>
 #include <string>
 
 #include "run_twinshade.h"
@@ -310,6 +315,26 @@ TEST_CASE("a shader whose name has a quote is called by its name, in JSON and in
   CHECK_MESSAGE(run.out.find("b\"a%3A7%3Ad.frag,line=3,title=") != std::string::npos, run.out);
   CHECK_MESSAGE(run.out.find("q\"3.frag,line=7,title=") != std::string::npos, run.out);
   CHECK_MESSAGE(run.out.find("undeclared identifier\n") != std::string::npos, run.out);
+}
+
+TEST_CASE("under --watch a file that is saved while it is checked is checked again") {
+  const Folder folder;
+  const std::string shader = folder.file("a.frag", "in float x; out float y;\nvoid main() { y = x; }\n");
+  const std::string ranges = folder / "ranges", json = folder / "check.json";
+  REQUIRE(::mkfifo(ranges.c_str(), 0600) == 0);  // read once the shader has been read: its reader waits for us
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  int reads = 0;
+  run_twinshade_until(
+      {"check", shader, "--watch", "--inputs", ranges, "--on", "cpu,egl", "--no-timing", "--json", json}, [&] {
+        if (std::chrono::steady_clock::now() > deadline) return true;
+        if (reads == 1 && !std::filesystem::exists(json)) return false;  // the first check goes on
+        const int pipe = ::open(ranges.c_str(), O_WRONLY | O_NONBLOCK);
+        if (pipe < 0) return false;  // nobody reads it yet
+        if (++reads == 1) folder.file("a.frag", "in float x; out float y;\nvoid main() { y = -x; }\n");
+        ::close(pipe);
+        return reads == 2;
+      });
+  CHECK(reads == 2);
 }
 
 TEST_CASE("wrong shaders, ranges and files are refused with their place, the others are checked all the same") {

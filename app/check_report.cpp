@@ -122,8 +122,6 @@ Json line_json(const CheckedShader& shader, const Counterexample& example) {
           {"findings", findings_json(findings_at(shader, d.statement))}};
 }
 
-Json ulp_json(std::uint64_t ulp) { return ulp == UINT64_MAX ? Json(nullptr) : Json(ulp); }
-
 Json counterexample_json(const CheckedShader& shader) {
   if (!shader.counterexample) return nullptr;
   const Counterexample& example = *shader.counterexample;

@@ -383,7 +383,7 @@ class CompareRun {
     json["attributes_differ"] = c.attributes_differ;
     json["pixels_differ"] = c.pixels_differ;
     json["denormal_only"] = c.denormal_only;
-    json["max_ulp"] = c.max_ulp;
+    json["max_ulp"] = ulp_json(c.max_ulp);
     json["first_difference"] = row.first_difference;
     json["outside_exact_dialect"] = findings_json(row.findings);
     json["verdict"] = verdict(row);

@@ -105,7 +105,7 @@ Json difference_json(const std::optional<Difference>& difference, const Frame& f
   if (!is_discrete(d)) {
     json["a_hex"] = hex_text(d.scalar, d.a_bits);
     json["b_hex"] = hex_text(d.scalar, d.b_bits);
-    json["ulp"] = d.ulp;
+    json["ulp"] = ulp_json(d.ulp);
   }
   json["inputs"] = Json::array();
   for (const auto& [name, scalar, bits] : d.inputs)

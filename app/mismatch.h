@@ -9,7 +9,7 @@
 namespace twinshade {
 
 // Several lines: first layer that differs, pixel, both values in decimal and hex float, ULP, the shader's inputs, the
-// worst others and a histogram. captured: the frame that named the attributes.
+// worst others and a histogram. frame_a: of the two, the one that comparison calls a.
 std::string describe_mismatch(const std::string& technique, const std::string& a, const std::string& b,
                               const Comparison& comparison, const Frame& frame_a);
 

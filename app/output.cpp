@@ -191,6 +191,8 @@ void make_folder(const std::string& folder) {
   if (code) throw UserError(folder + ": cannot be created: " + code.message());
 }
 
+Json ulp_json(std::uint64_t ulp) { return ulp == UINT64_MAX ? Json(nullptr) : Json(ulp); }
+
 std::string hex_float(float value) {
   if (std::isnan(value)) return fmt::format("nan(0x{:08x})", std::bit_cast<std::uint32_t>(value));
   return fmt::format("{:a}", value);

@@ -69,7 +69,10 @@ void require_writable_folder(const std::string& folder);
 // Creates `folder` and those above it where they are missing. UserError where that cannot be done.
 void make_folder(const std::string& folder);
 
-// 1.25 and 0x1.4p+0; NaN with its bits.
+// A distance in ULP; null for UINT64_MAX, which is none: NaN on one side.
+Json ulp_json(std::uint64_t ulp);
+
+// 0x1.4p+0; NaN with its bits.
 std::string hex_float(float value);
 
 }  // namespace twinshade

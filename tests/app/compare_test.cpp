@@ -304,6 +304,20 @@ TEST_CASE("native attributes are reported and are no failure") {
   CHECK(result["max_ulp"].is_number());
 }
 
+TEST_CASE("NaN on one side is at no distance in JSON") {
+  const std::vector<std::string> opengl = opengl_backends();
+  if (opengl.empty()) return;
+  const Folder folder;
+  const std::string shader = folder.file(  // drivers' asin beyond 1 is NaN
+      "nan.frag", "in vec2 v_uv;\nout vec4 color;\nvoid main() { color = vec4(asin(v_uv.x * 0.0 - 2.0)); }\n");
+  const Run run =
+      run_twinshade(small_quad({"compare"}, {"--shader", shader, "--on", "cpu," + opengl.front(), "--json", "-"}));
+  REQUIRE_MESSAGE(run.code == 1, run.err);
+  const auto result = run.json()["results"][0];
+  CHECK(result["max_ulp"].is_null());
+  CHECK(result["first_difference"]["ulp"].is_null());
+}
+
 TEST_CASE("bench gives medians, quartiles and a ratio") {
   const std::vector<std::string> opengl = opengl_backends();
   const Run run =

@@ -29,9 +29,12 @@ namespace {
 constexpr CoefficientStorage kStorages[] = {CoefficientStorage::lightmap, CoefficientStorage::vertex,
                                             CoefficientStorage::volume};
 
+// A pipe or a device can be read once only, and no model is read from one: it is a bundle, or refused as none.
 bool is_bundle_file(const std::string& path) {
   std::error_code code;
-  if (!std::filesystem::is_regular_file(path, code)) return false;
+  const std::filesystem::file_status status = std::filesystem::status(path, code);
+  if (!std::filesystem::is_regular_file(status))
+    return std::filesystem::exists(status) && !std::filesystem::is_directory(status) && model_file_ending(path).empty();
   std::ifstream in(path, std::ios::binary);
   char first[64];
   in.read(first, sizeof first);
@@ -270,7 +273,8 @@ FrameOptions frame_options(const SubjectOptions& options, const Scene& scene) {
   if (scene.camera_frames && !options.camera)
     frame.camera = framing_camera(bounds_of(scene.positions), double(options.width) / options.height);
   if (options.camera) {
-    const auto& [eye, target, up, fov, near_plane, far_plane] = *options.camera;
+    const glm::dvec3 eye = options.camera->eye, target = options.camera->target;
+    const double fov = options.camera->vertical_fov_degrees;
     const bool is_model = !model_file_ending(options.scene).empty();
     if (is_model) {
       frame.camera = camera_at(bounds_of(scene.positions), eye, target, fov);

@@ -150,6 +150,19 @@ TEST_CASE("results go to pipes, links and stdout, which stay what they are") {
   CHECK(both.out == read_file(folder / "table") + read_file(out));
 }
 
+TEST_CASE("a bundle is read from a pipe") {
+  const Folder folder;
+  const std::string bundle = folder / "quad.bundle", pipe = folder / "pipe", out = folder / "out";
+  REQUIRE(run_twinshade(small_quad({"bake"}, {"--technique", "lightmap", "-o", bundle})).code == 0);
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  std::string err;
+  const int code = run_in_shell(
+      folder,
+      "render '" + pipe + "' --technique lightmap >'" + out + "' & cat '" + bundle + "' >'" + pipe + "'; wait $!", err);
+  REQUIRE_MESSAGE(code == 0, err);
+  CHECK(read_file(out) == run_twinshade({"render", bundle, "--technique", "lightmap"}).out);
+}
+
 TEST_CASE("a file that is replaced keeps its permissions") {
   const Folder folder;
   const std::string file = folder / "out.json";

@@ -244,7 +244,9 @@ void FunctionEmitter::store_to(const Instruction& i, const Place& p, const std::
   if (p.buffer != nullptr) {
     const Offset at = offset_of(p);
     std::string whole = stored;
-    if (module_.component_count(p.type) > 1 && module_.type(p.type).kind != Kind::vector) {
+    // Columns of row-major matrices are apart in memory.
+    const bool one_piece = module_.type(p.type).kind == Kind::vector && !at.matrix.row_major;
+    if (module_.component_count(p.type) > 1 && !one_piece) {
       // Taken apart below: evaluated once.
       whole = names_.declare("t" + std::to_string(++temporary_count_));
       out_.line("auto " + whole + " = " + stored + ";");

@@ -1,6 +1,7 @@
 // Compute shaders on the CPU and on llvmpipe: the same storage buffers, bit for bit.
 #include <doctest/doctest.h>
 
+#include <bit>
 #include <cstring>
 #include <random>
 
@@ -91,6 +92,30 @@ void main() {
   for (std::uint32_t& word : data) word = static_cast<std::uint32_t>(random());
   bundle.buffers = {storage("Data", data)};
   const Groups groups = {2, 3, 2};
+  const Words expected = on_gl(bundle, source, groups);
+  CHECK(expected != data);
+  for (const Number number : {Number::scalar, Number::lanes4})
+    CHECK_MESSAGE(first_difference(on_cpu(bundle, source, number, groups), expected) == "", int(number));
+}
+
+TEST_CASE("columns of row-major matrices in a buffer are stored whole, whatever expression they are given") {
+  const ShaderSource source = compute_shader(R"(#version 450
+layout(local_size_x = 16) in;
+layout(std430, row_major) buffer Data { mat2 a[16]; mat4x2 b[16]; mat3 c[16]; };
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  a[i][1] = a[i][0] * a[i][1].yx;
+  b[i][2] = -b[i][3];
+  if (i > 4u) b[i][1] = b[i][0] + b[i][1];
+  c[i][1] = c[i][0] * c[i][2].x;
+  c[i][i % 3u] = cross(c[i][0], c[i][1]);
+}
+)");
+  Bundle bundle;
+  Words data(16 * (4 + 8 + 12));
+  for (std::size_t k = 0; k < data.size(); ++k) data[k] = std::bit_cast<std::uint32_t>(float(k % 7));
+  bundle.buffers = {storage("Data", data)};
+  const Groups groups = {1, 1, 1};
   const Words expected = on_gl(bundle, source, groups);
   CHECK(expected != data);
   for (const Number number : {Number::scalar, Number::lanes4})

@@ -116,7 +116,7 @@ struct RenderVerb {
     require_scene_memory(subject);
     const Scene scene = load_scene(subject.scene, subject.triangles, !subject.camera);
     output.require_not_read(scene.files, file);
-    for (const std::string& note : scene.notes) output.note(subject.scene + ": " + note);
+    note_scene(output, subject, scene);
     Environment environment = load_light(subject);
     if (shading.reference_order > 0)
       environment = environment_of_radiance(environment_radiance(environment, shading.reference_order),

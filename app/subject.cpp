@@ -17,6 +17,7 @@
 #include "cpu_shaders/translate/translate.h"
 #include "lighting/bake.h"
 #include "lighting/environment_light.h"
+#include "lighting/material_textures.h"
 #include "lighting/visibility_textures.h"
 #include "scenes/environment.h"
 #include "scenes/model_camera.h"
@@ -290,6 +291,12 @@ FrameOptions frame_options(const SubjectOptions& options, const Scene& scene) {
   return frame;
 }
 
+void note_scene(const Output& output, const SubjectOptions& options, const Scene& scene) {
+  for (const std::string& note : scene.notes) output.note(options.scene + ": " + note);
+  for (const std::string& note : resampling_notes(scene, options.albedo, options.normal_map))
+    output.note(options.scene + ": " + note);
+}
+
 bool wants_all(const ShadingOptions& options) {
   return options.shader.empty() && options.techniques.size() == 1 && options.techniques.front() == "all";
 }
@@ -353,7 +360,7 @@ Subject load_subject(const SubjectOptions& options, const ShadingOptions& shadin
     require_scene_memory(options);
     const Scene scene = load_scene(options.scene, options.triangles, !options.camera);
     output.require_not_read(scene.files, written);
-    for (const std::string& note : scene.notes) output.note(options.scene + ": " + note);
+    note_scene(output, options, scene);
     choose(
         subject, chosen, shading,
         [&](const TechniqueInfo& technique, CoefficientStorage storage) { return can_keep(scene, technique, storage); },

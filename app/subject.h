@@ -60,6 +60,8 @@ Subject load_subject(const SubjectOptions& options, const ShadingOptions& shadin
 // The environment, or the blend of two, rotated.
 Environment load_light(const SubjectOptions& options);
 FrameOptions frame_options(const SubjectOptions& options, const Scene& scene);
+// What is said of a scene once it is read.
+void note_scene(const Output& output, const SubjectOptions& options, const Scene& scene);
 
 // The shaders to draw with, in registry order.
 std::vector<Shading> load_shadings(const ShadingOptions& options, const Subject& subject);

@@ -51,24 +51,39 @@ class Resampler {
   double scale_x_, scale_y_;
 };
 
+struct Size {
+  std::uint32_t width = 1, height = 1;
+};
+
+// That holds every image without a loss.
+Size full_size(const std::vector<Layer>& layers) {
+  Size size;
+  for (const Layer& layer : layers) {
+    if (!layer.image) continue;
+    size.width = std::max(size.width, layer.image->width);
+    size.height = std::max(size.height, layer.image->height);
+  }
+  return size;
+}
+
+Size array_size(const std::vector<Layer>& layers) {
+  Size size = full_size(layers);
+  const auto bytes = [&] { return std::size_t(size.width) * size.height * layers.size() * 4 * sizeof(float); };
+  while (bytes() > kArrayBudget && (size.width > 1 || size.height > 1)) {
+    size.width = std::max(1u, size.width / 2);
+    size.height = std::max(1u, size.height / 2);
+  }
+  return size;
+}
+
 Texture texture_array(const char* name, const std::vector<Layer>& layers, bool unit_length) {
   Texture out;
   out.name = name;
   out.kind = TextureKind::two_d_array;
   out.wrap = Wrap::repeat;
-  out.width = out.height = 1;
+  out.width = array_size(layers).width, out.height = array_size(layers).height;
   out.layers = std::uint32_t(layers.size());
-  for (const Layer& layer : layers) {
-    if (!layer.image) continue;
-    out.width = std::max(out.width, layer.image->width);
-    out.height = std::max(out.height, layer.image->height);
-  }
-  const auto bytes = [&] { return std::size_t(out.width) * out.height * out.layers * 4 * sizeof(float); };
-  while (bytes() > kArrayBudget && out.width * out.height > 1) {
-    out.width = std::max(1u, out.width / 2);
-    out.height = std::max(1u, out.height / 2);
-  }
-  out.texels.resize(bytes() / sizeof(float));
+  out.texels.resize(std::size_t(out.width) * out.height * out.layers * 4);
   parallel_for(std::size_t(out.layers) * out.height, [&](std::size_t row, int) {
     const Layer& layer = layers[row / out.height];
     float* texel = out.texels.data() + row * out.width * 4;
@@ -91,25 +106,60 @@ const Image* image_of(const Scene& scene, int index) {
              : nullptr;
 }
 
+std::vector<Layer> albedo_layers(const Scene& scene) {
+  std::vector<Layer> layers;
+  for (const Material& material : scene.materials)
+    layers.push_back({image_of(scene, material.albedo_image), glm::dvec3(material.albedo)});
+  if (layers.empty()) layers.push_back({nullptr, glm::dvec3(Material{}.albedo)});
+  return layers;
+}
+
+std::vector<Layer> normal_layers(const Scene& scene) {
+  std::vector<Layer> layers;
+  for (const Material& material : scene.materials) {
+    const Image* image = image_of(scene, material.normal_image);
+    layers.push_back({image, image ? glm::dvec3(1) : glm::dvec3(0, 0, 1)});
+  }
+  if (layers.empty()) layers.push_back({nullptr, glm::dvec3(0, 0, 1)});
+  return layers;
+}
+
+std::string resampling_note(const char* kind, const std::vector<Layer>& layers) {
+  const Size size = array_size(layers), full = full_size(layers);
+  std::size_t pictures = 0, resampled = 0;
+  for (const Layer& layer : layers) {
+    pictures += layer.image != nullptr;
+    resampled += layer.image && (layer.image->width != size.width || layer.image->height != size.height);
+  }
+  if (resampled == 0) return "";
+  const auto words = [](const Size& s) { return std::to_string(s.width) + " x " + std::to_string(s.height); };
+  std::string note = std::to_string(resampled) + " of " + std::to_string(pictures) + " " + kind + " are resampled to " +
+                     words(size) + ", one size for the layers of all materials";
+  if (full.width > size.width || full.height > size.height)
+    note += ": at " + words(full) + " they would take more than 512 MiB";
+  return note;
+}
+
 }  // namespace
 
 Texture albedo_maps(const Scene& scene, bool on) {
-  std::vector<Layer> layers;
-  for (const Material& material : scene.materials)
-    layers.push_back(on ? Layer{image_of(scene, material.albedo_image), glm::dvec3(material.albedo)}
-                        : Layer{nullptr, glm::dvec3(1)});
-  if (layers.empty()) layers.push_back({nullptr, on ? glm::dvec3(Material{}.albedo) : glm::dvec3(1)});
+  std::vector<Layer> layers = albedo_layers(scene);
+  if (!on) std::fill(layers.begin(), layers.end(), Layer{nullptr, glm::dvec3(1)});
   return texture_array("albedo_maps", layers, false);
 }
 
 Texture normal_maps(const Scene& scene, bool on) {
-  std::vector<Layer> layers;
-  for (const Material& material : scene.materials) {
-    const Image* image = on ? image_of(scene, material.normal_image) : nullptr;
-    layers.push_back({image, image ? glm::dvec3(1) : glm::dvec3(0, 0, 1)});
-  }
-  if (layers.empty()) layers.push_back({nullptr, glm::dvec3(0, 0, 1)});
+  std::vector<Layer> layers = normal_layers(scene);
+  if (!on) std::fill(layers.begin(), layers.end(), Layer{nullptr, glm::dvec3(0, 0, 1)});
   return texture_array("normal_maps", layers, true);
+}
+
+std::vector<std::string> resampling_notes(const Scene& scene, bool albedo, bool normal_map) {
+  std::vector<std::string> notes;
+  if (albedo) notes.push_back(resampling_note("colour pictures", albedo_layers(scene)));
+  if (normal_map) notes.push_back(resampling_note("normal maps", normal_layers(scene)));
+  std::erase(notes, "");
+  return notes;
 }
 
 }  // namespace twinshade

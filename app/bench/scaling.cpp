@@ -116,7 +116,7 @@ class ScalingRun {
     require_scene_memory(options_.subject);
     Scene scene = load_scene(options_.subject.scene, options_.subject.triangles, !options_.subject.camera);
     output_.require_not_read(scene.files);
-    for (const std::string& note : scene.notes) output_.note(options_.subject.scene + ": " + note);
+    note_scene(output_, options_.subject, scene);
     if (scene.lightmap_uvs.empty())
       throw UserError(options_.subject.scene + " has no lightmap coordinates, and --scaling draws from lightmaps");
     return scene;

@@ -139,6 +139,27 @@ TEST_CASE("vertex storage: an attribute for each coefficient") {
   CHECK(bundle.find_attribute("v_lightmap_uv") == nullptr);
 }
 
+TEST_CASE("pictures of other sizes than their array's are said, the budget where it makes them smaller") {
+  Scene scene = floor_scene();
+  const auto add = [&](std::uint32_t width, std::uint32_t height) {
+    scene.materials.push_back({"m", glm::vec3(1), int(scene.images.size()), -1});
+    scene.images.push_back({width, height, std::vector<float>(std::size_t(width) * height * 4, 0.5f)});
+  };
+  add(4, 2);
+  add(4, 2);
+  CHECK(resampling_notes(scene, true, true).empty());
+  add(8, 1);
+  const std::string layers = ", one size for the layers of all materials";
+  CHECK(resampling_notes(scene, true, true) ==
+        std::vector<std::string>{"3 of 3 colour pictures are resampled to 8 x 2" + layers});
+  CHECK(resampling_notes(scene, false, true).empty());
+  add(65536, 1);
+  add(1, 65536);
+  CHECK(resampling_notes(scene, true, true) ==
+        std::vector<std::string>{"5 of 5 colour pictures are resampled to 2048 x 2048" + layers +
+                                 ": at 65536 x 65536 they would take more than 512 MiB"});
+}
+
 TEST_CASE("clip positions of a scene replace the camera's and are fitted to the viewport") {
   Scene scene = floor_scene();
   scene.clip_positions = {{-1, -1, 0, 1}, {1, -1, 0, 1}, {1, 1, 0.5f, 1}, {-2, 2, 0, 2}};
@@ -167,6 +188,8 @@ TEST_CASE("materials: a layer each, of one size, the albedo multiplied in, one b
   CHECK(normal.texels == std::vector<float>{0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0.6f, 0, 0.8f, 1});
   CHECK(albedo_maps(scene, false).texels == std::vector<float>(8, 1.0f));
   CHECK(normal_maps(scene, false).texels == std::vector<float>{0, 0, 1, 1, 0, 0, 1, 1});
+
+  CHECK(resampling_notes(scene, true, true).empty());
 
   const Bundle bundle =
       make_bundle(scene, flat_light(CoefficientStorage::lightmap, 1, 1), named({"facets"}), FrameOptions());

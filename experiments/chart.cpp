@@ -78,7 +78,8 @@ void outline(Drawing& drawing, Point center, double radius, int corners, double 
   drawing.path(std::move(points), {color, 1.6, {}});
 }
 
-// A shape of each series' own: a small disc, and outlines through which it and each other can be seen.
+// A shape of each series' own: a small disc, and outlines through which it and each other can be seen. Where shapes
+// begin anew, they do in other colours.
 void draw_dot(Drawing& drawing, Point at, std::size_t series) {
   struct Outline {
     double radius;
@@ -88,10 +89,24 @@ void draw_dot(Drawing& drawing, Point at, std::size_t series) {
   constexpr Outline kOutlines[] = {{6, 24, 0}, {8.5, 4, 0.125}, {8.5, 3, 0.25}, {8.5, 3, 0.75},
                                    {9, 4, 0},  {4, 4, 0.125},   {9.5, 6, 0}};
   const Color color = series_color(series);
-  if (const std::size_t shape = series % (std::size(kOutlines) + 1); shape == 0)
+  static_assert(std::size(kOutlines) + 1 == kSeriesColorCount);
+  if (const std::size_t shape = (series + series / kSeriesColorCount) % kSeriesColorCount; shape == 0)
     drawing.disc(at, 3.6, color);
   else
     outline(drawing, at, kOutlines[shape - 1].radius, kOutlines[shape - 1].corners, kOutlines[shape - 1].corner, color);
+}
+
+// Where the legend's entries begin: beside each other, in as many lines as that takes.
+std::vector<Point> legend_places(const std::vector<BarChart::Bars>& bars, double left, double right) {
+  std::vector<Point> places;
+  double x = left, y = 74;
+  for (const BarChart::Bars& entry : bars) {
+    const double words = text_width(entry.label, kLabelSize);
+    if (x > left && x + 17 + words > right) x = left, y += 20;
+    places.push_back({x, y});
+    x += 40 + words;
+  }
+  return places;
 }
 
 // Points with its tip to where the value is, out of the chart.
@@ -206,8 +221,9 @@ Drawing draw(const BarChart& chart) {
   const bool legend = chart.bars.size() > 1;
   const bool dots = chart.dots || chart.value.logarithmic;
   const double row_height = dots ? kRowHeight : std::max(kRowHeight, 8.0 + 11.0 * double(chart.bars.size()));
-  const double top = legend ? 92 : 68, bottom = top + row_height * double(chart.rows.size());
   const double left = 28 + widest(chart.rows, kLabelSize), right = chart.width - (dots ? 32 : 76);
+  const std::vector<Point> entries = legend_places(chart.bars, left, chart.width - 16);
+  const double top = legend ? entries.back().y + 18 : 68, bottom = top + row_height * double(chart.rows.size());
 
   std::vector<double> values;
   for (const BarChart::Bars& bars : chart.bars) {
@@ -224,14 +240,13 @@ Drawing draw(const BarChart& chart) {
     draw_left_arrow(drawing, {left, bottom + 58}, kFaint);
     drawing.text({left + 14, bottom + 62}, below_note(scale), {.size = 11, .color = kFaint});
   }
-  double legend_x = left;
   for (std::size_t b = 0; legend && b < chart.bars.size(); ++b) {
+    const auto [x, y] = entries[b];
     if (dots)
-      draw_dot(drawing, {legend_x + 6, 74}, b);
+      draw_dot(drawing, {x + 6, y}, b);
     else
-      drawing.disc({legend_x + 6, 74}, 5, series_color(b));
-    drawing.text({legend_x + 17, 78}, chart.bars[b].label, {.size = kLabelSize, .color = kInk});
-    legend_x += 40 + text_width(chart.bars[b].label, kLabelSize);
+      drawing.disc({x + 6, y}, 5, series_color(b));
+    drawing.text({x + 17, y + 4}, chart.bars[b].label, {.size = kLabelSize, .color = kInk});
   }
   draw_horizontal_axis(drawing, scale, chart.value.title, top, bottom, (left + right) / 2);
 

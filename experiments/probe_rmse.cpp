@@ -30,9 +30,9 @@ Drawing comparison(const ProbeLight& light, const std::vector<const TechniqueInf
   const double largest = sorted.empty() ? 0 : std::max(3 * sorted[sorted.size() / 2], finest);
   const int rows = int(bases.size() + 1 + kTilesAcross - 1) / kTilesAcross;
   const double cell_width = kTileWidth + kGap, cell_height = 2 * kTileHeight + 4 + kCaption;
-  Drawing drawing(kGap + kTilesAcross * cell_width, kTop + rows * cell_height);
-  drawing.text({16, 28}, "Irradiance of the probe " + light.name + ", exact and through each basis",
-               {.size = 17, .color = kInk, .bold = true});
+  const std::string title = "Irradiance of the probe " + light.name + ", exact and through each basis";
+  Drawing drawing(std::max(kGap + kTilesAcross * cell_width, 32 + text_width(title, 19.5)), kTop + rows * cell_height);
+  drawing.text({16, 28}, title, {.size = 17, .color = kInk, .bold = true});
   drawing.text({16, 48},
                fmt::format("Lat-long, up is up, E / pi, tone mapped. Below each: absolute error, dark blue 0 to yellow "
                            "{} and more. In brackets: RMSE.",
@@ -54,7 +54,7 @@ Drawing comparison(const ProbeLight& light, const std::vector<const TechniqueInf
 Drawing error_chart(const std::vector<const TechniqueInfo*>& bases, const std::vector<Probe>& lights,
                     const std::vector<std::vector<double>>& errors) {
   BarChart chart;
-  chart.title = "Error of irradiance probes";
+  chart.title = lights.size() == 1 ? "Error of the irradiance probe " + lights[0].name : "Error of irradiance probes";
   chart.subtitle =
       "Root mean square over the sphere of E / pi, mean of the three channels; reference: the sum over all pixels. In "
       "brackets: coefficients.";

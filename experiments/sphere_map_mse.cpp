@@ -1,6 +1,8 @@
 // How well sphere maps hold smooth functions: the mean squared error of reading spherical harmonics back from maps that
 // store them at texel centres, over random directions, against the number of texels. Iwanicki and Sloan, Normal Mapping
 // with Low-Frequency Precomputed Visibility, JGT 2012, appendix A and figure 8.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -200,10 +202,12 @@ Drawing chart(const Rows& rows, int order, bool drawn) {
       // Written-out filters read the same on every machine: one line is enough
       const std::string &machine = std::get<std::string>(rows.at(r, "machine")),
                         &filter = std::get<std::string>(rows.at(r, "filter"));
-      if (filter != filter_name(MapFilter::written_out))
+      if (filter != filter_name(MapFilter::written_out)) {
         name += ", " + machine + " " + filter;
-      else if (rows.number(r, "values_differ") == 0 && machine != std::get<std::string>(rows.at(0, "machine")))
-        continue;
+      } else if (machine != std::get<std::string>(rows.at(0, "machine"))) {
+        if (rows.number(r, "values_differ") == 0) continue;
+        name += ", " + machine;
+      }
     }
     const auto found = std::find_if(chart.series.begin(), chart.series.end(),
                                     [&](const Series& series) { return series.label == name; });
@@ -213,7 +217,7 @@ Drawing chart(const Rows& rows, int order, bool drawn) {
   }
   for (Series& series : chart.series) {
     const double s = slope(series);
-    if (std::isfinite(s)) series.label += " (slope " + short_number(std::floor(s * 100 + 0.5) / 100) + ")";
+    if (std::isfinite(s)) series.label += fmt::format(" (slope {:.2f})", s);
   }
   return draw(chart);
 }

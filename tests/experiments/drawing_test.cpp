@@ -95,6 +95,32 @@ TEST_CASE("dots of different series at one place are all seen: each series has a
   CHECK(count(svg, "stroke-width=\"1.6\"") == 6);  // three of outlines, which hide nothing
 }
 
+TEST_CASE("a legend of many series goes on in further lines, within the chart") {
+  BarChart chart;
+  chart.dots = true;
+  chart.rows = {"row"};
+  for (int b = 0; b < 12; ++b) chart.bars.push_back({"a series of a long name " + std::to_string(b), {double(b)}});
+  const auto [width, height] = png_size(draw(chart).png());
+  CHECK(width == 1800);
+  const std::string svg = draw(chart).svg();
+  for (const BarChart::Bars& bars : chart.bars) {
+    const std::string words = ">" + bars.label + "<";
+    const std::size_t end = svg.find(words), begin = svg.rfind("<text x=\"", end) + 9;
+    REQUIRE(end != std::string::npos);
+    CHECK(std::stod(svg.substr(begin)) + text_width(bars.label, 12) <= 900);
+  }
+  chart.bars.resize(2);
+  CHECK(png_size(draw(chart).png()).second < height);
+}
+
+TEST_CASE("more series than there are shapes have shapes in other colours") {
+  BarChart chart;
+  chart.dots = true;
+  chart.rows = {"row"};
+  for (int b = 0; b < 9; ++b) chart.bars.push_back({"s" + std::to_string(b), {1}});
+  CHECK(count(draw(chart).svg(), "<circle") == 2);  // the first alone: its legend and its dot
+}
+
 TEST_CASE("where lines are told apart by dashes their labels show them") {
   LineChart chart;
   for (int k = 0; k < 8; ++k) chart.series.push_back({"line", {0, 1}, {0, double(k)}});

@@ -122,6 +122,7 @@ class FunctionEmitter {
     std::string text(std::uint32_t more = 0) const;
   };
   Offset offset_of(const Place& p);
+  void name_dynamic(Offset& at);
   std::string load_memory(const std::string& buffer, const Offset& at, Id type, std::uint32_t more,
                           const MatrixLayout& matrix, bool varying);
   void store_memory(const std::string& buffer, const Offset& at, Id type, std::uint32_t more,

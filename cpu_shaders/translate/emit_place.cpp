@@ -190,11 +190,7 @@ Expression FunctionEmitter::load(const Place& p) {
                       " is not supported: read its elements one by one");
     const Kind kind = module_.type(p.type).kind;
     const bool several = kind == Kind::matrix || kind == Kind::array || kind == Kind::structure;
-    if (several && !at.dynamic.empty()) {
-      const std::string name = names_.declare("t" + std::to_string(++temporary_count_));
-      out_.line("const " + std::string(at.varying ? "I " : "UI ") + name + " = " + at.dynamic + ";");
-      at.dynamic = name;
-    }
+    if (several) name_dynamic(at);
     e.text = load_memory(p.base.text, at, p.type, 0, at.matrix, at.varying);
     e.precedence = 1;
     e.reads.insert(kBuffers);
@@ -242,7 +238,7 @@ void FunctionEmitter::store(const Instruction& i) {
 
 void FunctionEmitter::store_to(const Instruction& i, const Place& p, const std::string& stored) {
   if (p.buffer != nullptr) {
-    const Offset at = offset_of(p);
+    Offset at = offset_of(p);
     std::string whole = stored;
     // Columns of row-major matrices are apart in memory.
     const bool one_piece = module_.type(p.type).kind == Kind::vector && !at.matrix.row_major;
@@ -250,6 +246,7 @@ void FunctionEmitter::store_to(const Instruction& i, const Place& p, const std::
       // Taken apart below: evaluated once.
       whole = names_.declare("t" + std::to_string(++temporary_count_));
       out_.line("auto " + whole + " = " + stored + ";");
+      name_dynamic(at);  // the first piece may change what an index is read from
     }
     store_memory(p.base.text, at, p.type, 0, at.matrix, whole);
     return;
@@ -338,6 +335,14 @@ FunctionEmitter::Offset FunctionEmitter::offset_of(const Place& p) {
   }
   // Row-major concerns matrices and their columns only; what was reached may be neither.
   return at;
+}
+
+// Before several pieces are read or written there.
+void FunctionEmitter::name_dynamic(Offset& at) {
+  if (at.dynamic.empty()) return;
+  const std::string name = names_.declare("t" + std::to_string(++temporary_count_));
+  out_.line("const " + std::string(at.varying ? "I " : "UI ") + name + " = " + at.dynamic + ";");
+  at.dynamic = name;
 }
 
 std::string FunctionEmitter::load_memory(const std::string& buffer, const Offset& at, Id id, std::uint32_t more,

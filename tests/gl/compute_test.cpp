@@ -122,6 +122,27 @@ void main() {
     CHECK_MESSAGE(first_difference(on_cpu(bundle, source, number, groups), expected) == "", int(number));
 }
 
+TEST_CASE("a matrix in a buffer is stored at the index that was there before, though the index is in the matrix") {
+  const ShaderSource source = compute_shader(R"(#version 450
+layout(local_size_x = 16) in;
+layout(std430) buffer Data { mat2 a[16]; layout(row_major) mat3 b[16]; };
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  a[i] = mat2(i);
+  a[int(a[i][0].x)] = mat2(40, 50, 60, 70);
+  b[i] = mat3(i);
+  b[int(b[i][0].x)] = mat3(1, 2, 3, 4, 5, 6, 7, 8, 9);
+  b[i][int(b[i][0].x)] = vec3(20, 21, 22);
+}
+)");
+  Bundle bundle;
+  bundle.buffers = {storage("Data", Words(16 * (4 + 12)))};
+  const Groups groups = {1, 1, 1};
+  const Words expected = on_gl(bundle, source, groups);
+  for (const Number number : {Number::scalar, Number::lanes4})
+    CHECK_MESSAGE(first_difference(on_cpu(bundle, source, number, groups), expected) == "", int(number));
+}
+
 TEST_CASE("denormals stay in compute shaders") {
   const ShaderSource source = compute_shader(R"(#version 310 es
 layout(local_size_x = 4) in;

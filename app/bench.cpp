@@ -165,7 +165,7 @@ int BenchVerb::time_scaling(const Output& output) const {
   options.measured = [&](const Rows& rows, const std::vector<std::string>& notes) {
     write_so_far(output, "scaling.csv", rows.csv(), json(rows, notes, false));
   };
-  const ExperimentResult result = run_scaling(options, common, output);
+  const ScalingResult result = run_scaling(options, common, output);
   output.text(table_text(result.rows));
   for (const std::string& note : result.notes) output.note(note);
   if (!folder.empty()) {
@@ -174,7 +174,7 @@ int BenchVerb::time_scaling(const Output& output) const {
     write_pictures(folder, result.pictures, output);
   }
   output.json(json(result.rows, result.notes, true));
-  return 0;
+  return result.failed ? 2 : 0;
 }
 
 int BenchVerb::time_techniques(const Output& output) const {

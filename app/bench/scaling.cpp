@@ -66,13 +66,13 @@ class ScalingRun {
     require_axes(options.axes);
   }
 
-  ExperimentResult run() {
+  ScalingResult run() {
     if (asked("pixels")) pixels();
     if (asked("triangles")) triangles();
     if (asked("overdraw")) overdraw();
     if (asked("threads")) threads();
     if (asked("coefficients")) coefficients();
-    ExperimentResult result{rows_, notes_, {}};
+    ScalingResult result{{rows_, notes_, {}}, failed_};
     for (const Axis& axis : axes())
       if (asked(axis.name)) add_pictures(axis, result);
     return result;
@@ -191,13 +191,17 @@ class ScalingRun {
     const ShaderSource source = technique_source(technique, storage);
     const std::vector<Way> ways =
         distinct_ways(all_ways(cpu, {AttributeMode::exact}, options_.host_fma), source, options_.cpu.isa);
-    output_.progress(fmt::format("{}: {}", axis, value > 0 ? value : double(bundle.width) * bundle.height));
+    const std::string point =
+        fmt::format("{}: {}", axis, value > 0 ? value : double(bundle.width) * double(bundle.height));
+    output_.progress(point);
     const std::vector<Timing> timings =
         race(ways, bundle, source, driver_source(technique, storage, sphere_maps().front()), options_.rounds);
     const Timing* llvmpipe = faster_llvmpipe(timings);
     for (const Timing& timing : timings)
-      if (!timing.failure.empty())
-        notes_.push_back(fmt::format("{} {}: {}: {}", axis, value, timing.way.name(), timing.failure));
+      if (!timing.failure.empty()) {
+        notes_.push_back(fmt::format("{}: {}: {}", point, timing.way.name(), timing.failure));
+        failed_ = true;
+      }
     for (const Timing& timing : timings) {
       if (!timing.drawn() || (!timing.way.is_cpu() && &timing != llvmpipe)) continue;
       const Quartiles ms = quartiles(timing.milliseconds);
@@ -291,6 +295,7 @@ class ScalingRun {
   const Output& output_;
   const TechniqueInfo& technique_;
   std::vector<std::string> notes_;
+  bool failed_ = false;
   Rows rows_{{"axis",           "value",     "technique",    "light",      "width",  "height",
               "shaded_pixels",  "triangles", "threads",      "renderer",   "isa",    "ms",
               "ms_q1",          "ms_q3",     "ns_per_pixel", "vertex_ms",  "bin_ms", "raster_ms",
@@ -326,7 +331,7 @@ std::vector<std::string> scaling_pictures(const std::vector<std::string>& axes) 
   return pictures;
 }
 
-ExperimentResult run_scaling(const ScalingOptions& options, const CommonOptions& common, const Output& output) {
+ScalingResult run_scaling(const ScalingOptions& options, const CommonOptions& common, const Output& output) {
   return ScalingRun(options, common, output).run();
 }
 

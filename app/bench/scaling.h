@@ -34,8 +34,12 @@ bool has_axis(const std::vector<std::string>& axes, const std::string& axis);
 // Names of the pictures that these axes may give, without endings. axes: names, or "all".
 std::vector<std::string> scaling_pictures(const std::vector<std::string>& axes);
 
+struct ScalingResult : ExperimentResult {
+  bool failed = false;  // some machine could not draw some point: the notes say which, and why
+};
+
 // A row for each machine at each point of each axis; pictures: milliseconds, or nanoseconds a pixel, against each axis,
 // and memory against each but coefficients. UserError for axes that do not exist and for other techniques.
-ExperimentResult run_scaling(const ScalingOptions& options, const CommonOptions& common, const Output& output);
+ScalingResult run_scaling(const ScalingOptions& options, const CommonOptions& common, const Output& output);
 
 }  // namespace twinshade::bench

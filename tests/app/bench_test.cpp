@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <set>
@@ -214,6 +215,18 @@ TEST_CASE("bench refuses files that it could not write, or would write twice, be
   CHECK(folder.names().empty());
   std::filesystem::create_directory(folder / "bench.csv");
   refused({"-o", folder / ""}, "bench.csv");
+}
+
+TEST_CASE("scaling without llvmpipe measures ours, names what failed at which point, and is no success") {
+  ::setenv("TWINSHADE_EGL_LIBRARY", "libNone.so", 1);
+  const Run run = run_twinshade(small_quad(
+      {"bench"}, {"--scaling", "threads", "--threads", "1", "--rounds", "1", "--repeat", "1", "--json", "-"}));
+  ::unsetenv("TWINSHADE_EGL_LIBRARY");
+  CHECK(run.code == 2);
+  const nlohmann::json json = run.json();
+  CHECK(json["rows"].size() == 1);
+  REQUIRE_MESSAGE(!json["notes"].empty(), run.err);
+  CHECK(json["notes"][0].get<std::string>().find("threads: 1: egl: egl: cannot load libNone.so") == 0);
 }
 
 TEST_CASE("scaling refuses by name what has no meaning there") {

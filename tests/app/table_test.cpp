@@ -17,6 +17,22 @@ TEST_CASE("columns are aligned, numbers to the right, and lines end without blan
         "longer  12345678\n");
 }
 
+TEST_CASE("columns are as wide as their characters, whatever bytes these take") {
+  Table table;
+  table.column("shader");
+  table.column("n", Table::Align::right);
+  table.row(
+      {"gr\xc3\xb6\xc3\x9f"
+       "e.frag",
+       "1"});
+  table.row({"plain.frag", "2"});
+  CHECK(table.text() ==
+        "shader      n\n"
+        "gr\xc3\xb6\xc3\x9f"
+        "e.frag  1\n"
+        "plain.frag  2\n");
+}
+
 TEST_CASE("rows of a table that are written as they come have columns as wide as was said") {
   Table table;
   table.column("name", Table::Align::left, 6);

@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <system_error>
 
 #include "raster/gl/protocol.h"
 #include "raster/gl/worker_environment.h"
@@ -113,7 +114,11 @@ void WorkerProcess::start(double time_limit_seconds) {
     throw BackendError(name + ": cannot make a socket: " + std::strerror(errno));
   FileDescriptor ours(ends[0]), theirs(ends[1]);
   // Its own file, which Mesa's messages grow; only its end is ever read.
-  output_ = SharedMemory::create(1);
+  try {
+    output_ = SharedMemory::create(1);
+  } catch (const std::system_error& error) {
+    throw BackendError(name + ": " + error.what());
+  }
 
   SpawnActions actions;
   actions.no_input();

@@ -1,6 +1,7 @@
 // Workers: what survives, what is reported, what is not sent twice.
 #include <doctest/doctest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -168,6 +169,20 @@ TEST_CASE("a missing library is named, and the other backend still works") {
     CHECK(contains(error, ".so.99: cannot open shared object file"));
   }
   CHECK(make_gl_renderer(GlBackend::egl)->draw(test::quad(8, 8), shader(kPlain), {}).coverage[0] == 1);
+}
+
+TEST_CASE("a worker that cannot be started for want of descriptors is one missing backend") {
+  const auto renderer = make_gl_renderer(GlBackend::egl);
+  rlimit before{};
+  REQUIRE(getrlimit(RLIMIT_NOFILE, &before) == 0);
+  const int lowest = dup(0);  // what is open stays; a socket is two more
+  REQUIRE(lowest >= 0);
+  close(lowest);
+  const rlimit two_more{rlim_t(lowest) + 2, before.rlim_max};
+  REQUIRE(setrlimit(RLIMIT_NOFILE, &two_more) == 0);
+  const std::string error = error_of([&] { renderer->draw(test::quad(8, 8), shader(kPlain), {}); });
+  REQUIRE(setrlimit(RLIMIT_NOFILE, &before) == 0);
+  CHECK(error == "egl: cannot make shared memory: Too many open files");
 }
 
 TEST_CASE("a program that is no worker is reported, not waited for") {

@@ -1,5 +1,6 @@
 #include "bundle/bundle.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -16,6 +17,14 @@ const T* find(const std::vector<T>& list, std::string_view name) {
 }
 
 constexpr std::uint32_t kLargestFrame = 16384;
+
+// GLSL has no such names, and messages would break off at a zero byte in one.
+template <class T>
+bool has_control_character(const std::vector<T>& list) {
+  return std::any_of(list.begin(), list.end(), [](const T& item) {
+    return std::any_of(item.name.begin(), item.name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+  });
+}
 
 }  // namespace
 
@@ -49,6 +58,9 @@ void validate(const Bundle& bundle, const std::string& origin) {
   if (bundle.width == 0 || bundle.height == 0 || bundle.width > kLargestFrame || bundle.height > kLargestFrame)
     fail("frame size " + std::to_string(bundle.width) + "x" + std::to_string(bundle.height) +
          " is not within 1x1 to 16384x16384");
+  if (has_control_character(bundle.attributes) || has_control_character(bundle.textures) ||
+      has_control_character(bundle.uniforms) || has_control_character(bundle.buffers))
+    fail("damaged bundle: a name has a control character in it; bake it again");
   if (bundle.clip_positions.size() % 4 != 0) fail("clip positions are not four floats a vertex");
   if (bundle.indices.size() % 3 != 0) fail("indices are not three a triangle");
   const std::size_t vertices = bundle.vertex_count();

@@ -65,8 +65,9 @@ class Reader {
       list.resize(length(sizeof(T)));
       copy(list.data(), list.size() * sizeof(T));
     } else {
-      list.resize(length(1));
-      for (T& item : list) visit(*this, item);
+      // One by one: a damaged count of what takes many times the bytes that it is read from ends where those do.
+      list.clear();
+      for (std::size_t rest = length(1); rest > 0; --rest) visit(*this, list.emplace_back());
     }
   }
   bool at_end() const { return rest_.empty(); }

@@ -2,12 +2,14 @@
 
 #include <doctest/doctest.h>
 
+#include <cstring>
 #include <filesystem>
 #include <limits>
 
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
+#include "base/memory.h"
 
 using namespace twinshade;
 
@@ -101,6 +103,32 @@ TEST_CASE("a bundle whose parts do not fit together is refused") {
     CHECK_THROWS_AS(validate(bundle, "b"), UserError);
     CHECK_THROWS_AS(deserialize(serialize(bundle), "b"), UserError);
   }
+}
+
+TEST_CASE("a bundle with a control character in a name is refused: the message would end there") {
+  for (const auto& change : std::vector<void (*)(Bundle&)>{[](Bundle& b) { b.attributes[0].name[1] = '\0'; },
+                                                           [](Bundle& b) { b.textures[0].name += '\n'; },
+                                                           [](Bundle& b) { b.uniforms[0].name += '\x7f'; }}) {
+    Bundle bundle = small_bundle();
+    change(bundle);
+    CHECK_THROWS_WITH_AS(deserialize(serialize(bundle), "b"),
+                         "b: damaged bundle: a name has a control character in it; bake it again", UserError);
+  }
+}
+
+TEST_CASE("a count that a bundle has the bytes for but not the parts takes no memory for them") {
+  Bundle bundle = small_bundle();
+  bundle.attributes.clear(), bundle.textures.clear(), bundle.uniforms.clear(), bundle.notes.clear();
+  bundle.buffers = {{"b", false, std::vector<std::byte>(std::size_t{16} << 20, std::byte{0xff})}};
+  std::string bytes = serialize(bundle);
+  const std::size_t attributes = 8 + 4 + 4 + 8 + bundle.clip_positions.size() * 4 + 8 + bundle.indices.size() * 4 + 1;
+  const std::uint64_t claimed = std::uint64_t{16} << 20;
+  std::memcpy(&bytes[attributes], &claimed, sizeof claimed);
+  bytes.resize(bytes.size() - 64);
+  bytes += sha256_hex(bytes);
+  const std::uint64_t before = peak_memory();
+  CHECK_THROWS_WITH_AS(deserialize(bytes, "b"), doctest::Contains("damaged bundle"), UserError);
+  if (before != 0) CHECK(peak_memory() < before + (std::uint64_t{256} << 20));
 }
 
 TEST_CASE("fitting to the power-of-two viewport keeps every window position") {

@@ -357,7 +357,7 @@ void FunctionEmitter::instruction(const Instruction& i) {
         position(i.file, i.line);
         materialise(whole);
         const Place p = place(i.operands[3]);
-        before_write(p.root);
+        before_write(p.buffer != nullptr ? kBuffers : p.root);
         const std::string name = values_.at(x).text;
         store_to(i, p, "glsl::trunc(" + name + ")");
         Expression e;

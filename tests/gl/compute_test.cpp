@@ -1,6 +1,7 @@
 // Compute shaders on the CPU and on llvmpipe: the same storage buffers, bit for bit.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <random>
@@ -141,6 +142,28 @@ void main() {
   const Words expected = on_gl(bundle, source, groups);
   for (const Number number : {Number::scalar, Number::lanes4})
     CHECK_MESSAGE(first_difference(on_cpu(bundle, source, number, groups), expected) == "", int(number));
+}
+
+TEST_CASE("what modf overwrites in memory has been read by what stands before it, as a variable has") {
+  const ShaderSource source = compute_shader(R"(#version 450
+layout(local_size_x = 4) in;
+layout(std430) buffer Data { float data[]; };
+shared float kept[4];
+void main() {
+  uint i = gl_LocalInvocationIndex;
+  float variable = data[i];
+  kept[i] = data[i];
+  data[i + 4u] = variable + modf(2.25, variable);
+  data[i + 8u] = kept[i] + modf(2.25, kept[i]);
+  data[i + 12u] = data[i] + modf(2.25, data[i]);
+}
+)");
+  Bundle bundle;
+  bundle.buffers = {storage("Data", Words(16, std::bit_cast<std::uint32_t>(5.0f)))};
+  Words expected(16, std::bit_cast<std::uint32_t>(5.25f));
+  std::fill_n(expected.begin(), 4, std::bit_cast<std::uint32_t>(2.0f));
+  for (const Number number : {Number::scalar, Number::lanes4})
+    CHECK_MESSAGE(first_difference(on_cpu(bundle, source, number, {1, 1, 1}), expected) == "", int(number));
 }
 
 TEST_CASE("denormals stay in compute shaders") {

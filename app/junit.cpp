@@ -10,36 +10,16 @@
 #include <string_view>
 #include <utility>
 
+#include "base/utf8.h"
+
 namespace twinshade {
 namespace {
-
-// Bytes of the UTF-8 sequence that begins at `at`; 0 where none does (RFC 3629: none too long, no surrogates), or where
-// it is a character that XML 1.0 has no form for.
-std::size_t character_length(std::string_view text, std::size_t at) {
-  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
-  const unsigned first = byte(at);
-  if (first < 0x80) return first >= 0x20 || first == '\n' || first == '\t' || first == '\r' ? 1 : 0;
-  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
-  if (first < 0xc2 || first > 0xf4) return 0;
-  unsigned code = first & (0xffu >> (length + 1));
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(at + i) & 0xc0u) != 0x80) return 0;
-    code = code << 6 | (byte(at + i) & 0x3fu);
-  }
-  const bool too_long = (length == 3 && code < 0x800) || (length == 4 && (code < 0x10000 || code > 0x10ffff));
-  const bool refused = (code >= 0xd800 && code <= 0xdfff) || code == 0xfffe || code == 0xffff;
-  return too_long || refused ? 0 : length;
-}
 
 // What a document may not hold becomes U+FFFD.
 std::string escaped(const std::string& text) {
   std::string result;
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t length = character_length(text, i);
-    const char c = text[i];
-    if (length == 0)
-      result += "\xef\xbf\xbd";
-    else if (c == '&')
+  for (const char c : with_characters_alone(text)) {
+    if (c == '&')
       result += "&amp;";
     else if (c == '<')
       result += "&lt;";
@@ -50,8 +30,7 @@ std::string escaped(const std::string& text) {
     else if (c == '\r')
       result += "&#13;";
     else
-      result.append(text, i, length);
-    i += std::max<std::size_t>(length, 1);
+      result += c;
   }
   return result;
 }

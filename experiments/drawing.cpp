@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/utf8.h"
 
 namespace twinshade {
 namespace {
@@ -93,10 +94,10 @@ void Drawing::disc(Point center, double radius, Color fill) {
   disc.fill = fill;
 }
 
-void Drawing::text(Point at, std::string words, const TextStyle& style) {
+void Drawing::text(Point at, const std::string& words, const TextStyle& style) {
   Text& text = add<Text>();
   text.at = at;
-  text.words = std::move(words);
+  text.words = with_characters_alone(words);  // cairo draws nothing more after others, SVG is damaged by them
   text.style = style;
 }
 

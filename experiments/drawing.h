@@ -52,7 +52,7 @@ class Drawing {
   void rectangle(Point corner, double width, double height, Color fill);
   void disc(Point center, double radius, Color fill);
   // y: of the base line.
-  void text(Point at, std::string words, const TextStyle& style);
+  void text(Point at, const std::string& words, const TextStyle& style);
   // Stretched to width x height; pixels stay sharp-edged squares where it is enlarged.
   void image(Point corner, double width, double height, PixelImage image);
 

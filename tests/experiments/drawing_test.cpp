@@ -39,6 +39,17 @@ TEST_CASE("text is escaped in SVG, and what cannot be seen is not written") {
   CHECK(svg.find("polyline") == std::string::npos);
 }
 
+TEST_CASE("text that is not UTF-8 is replaced, and what is drawn after it is seen") {
+  const auto drawn = [](const std::string& words) {
+    Drawing drawing(100, 50);
+    drawing.text({10, 20}, words, {});
+    drawing.rectangle({50, 30}, 20, 10, {255, 0, 0});
+    return drawing;
+  };
+  CHECK(drawn("caf\xe9\x01").svg().find(">caf\xef\xbf\xbd\xef\xbf\xbd</text>") != std::string::npos);
+  CHECK(drawn("caf\xe9").png() == drawn("caf\xef\xbf\xbd").png());
+}
+
 TEST_CASE("an image in a drawing is a PNG within the SVG") {
   Drawing drawing(10, 10);
   drawing.image({0, 0}, 10, 10, {2, 1, {255, 0, 0, 0, 0, 255}});
@@ -171,4 +182,31 @@ TEST_CASE("charts without anything to show are drawn all the same") {
   LineChart constant;
   constant.series.push_back({"zero", {1, 1}, {0, 0}});
   CHECK(draw(constant).svg().find("nan") == std::string::npos);
+}
+
+TEST_CASE("a scatter plot names each point that it shows, apart from each other and from the line") {
+  ScatterChart chart;
+  chart.x.logarithmic = chart.y.logarithmic = true;
+  chart.groups = {"lightmap"};
+  chart.line = "frontier";
+  for (int i = 0; i < 12; ++i)
+    chart.points.push_back({"point_" + std::to_string(i), 10 + 0.01 * i, 5 + 0.01 * (i * 7 % 12), 0});
+  chart.points.push_back({"zero", 0, 5, 0});
+  chart.points.push_back({"undefined", 10, std::nan(""), 0});
+  chart.on_line = {0, 12, 5};
+  const std::string svg = draw(chart).svg();
+  for (int i = 0; i < 12; ++i) CHECK(count(svg, ">point_" + std::to_string(i) + "<") == 1);
+  CHECK(count(svg, ">zero<") == 0);
+  CHECK(count(svg, ">undefined<") == 0);
+  CHECK(count(svg, "have no room here") == 0);
+  CHECK(count(svg, "font-weight=\"bold\">point_") == 2);
+}
+
+TEST_CASE("a logarithmic axis whose values fill less than half of their decades begins and ends nearer to them") {
+  ScatterChart chart;
+  chart.x.logarithmic = chart.y.logarithmic = true;
+  chart.points = {{"a", 21, 210, 0}, {"b", 45, 450, 0}};
+  const std::string svg = draw(chart).svg();
+  for (const char* label : {">20<", ">50<", ">200<", ">500<"}) CHECK(count(svg, label) == 1);
+  for (const char* label : {">10<", ">100<", ">1000<"}) CHECK(count(svg, label) == 0);
 }

@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "base/error.h"
+#include "scenes/obj_lines.h"
 
 namespace twinshade {
 namespace {
@@ -31,21 +32,36 @@ void ObjIndices::read(std::string_view statement, const std::string& path, std::
 
   std::string_view rest = statement.substr(end);
   rest = rest.substr(0, rest.find('#'));
-  std::size_t kind = 0;  // of the next index of a corner, as 1/2/3
-  for (std::size_t at = 0; at < rest.size();) {
-    if (rest[at] == '/' || kBetweenCorners.find(rest[at]) != std::string_view::npos) {
-      kind = rest[at] == '/' ? kind + 1 : 0;
-      ++at;
-      continue;
-    }
-    std::int64_t index = 0;
-    const char* const last = rest.data() + rest.size();
-    const auto [behind, error] = std::from_chars(rest.data() + at, last, index);
-    if (error != std::errc() || kind >= kKinds) return;
-    at = std::size_t(behind - rest.data());
-    if (index == 0 || index < -counts_[kind]) refuse(path, line, kind, index, counts_[kind]);
-    if (index > largest_[kind].index) largest_[kind] = {index, line};
+  while (true) {
+    rest.remove_prefix(std::min(rest.find_first_not_of(kBetweenCorners), rest.size()));
+    if (rest.empty()) break;
+    const std::string_view corner = rest.substr(0, rest.find_first_of(kBetweenCorners));
+    rest.remove_prefix(corner.size());
+    read_corner(corner, path, line);
   }
+}
+
+// assimp takes +1 for another vertex, and leaves out what stands behind 1 in 1-3.
+void ObjIndices::read_corner(std::string_view corner, const std::string& path, std::size_t line) {
+  const char* at = corner.data();
+  const char* const last = at + corner.size();
+  bool right = true;
+  for (std::size_t kind = 0; right; ++kind) {
+    std::int64_t index = 0;
+    const auto [behind, error] = std::from_chars(at, last, index);
+    const bool left_out = kind > 0 && (at == last || *at == '/');
+    right = kind < kKinds && (error == std::errc() || left_out);
+    if (!right) break;
+    if (!left_out) {
+      if (index == 0 || index < -counts_[kind]) refuse(path, line, kind, index, counts_[kind]);
+      if (index > largest_[kind].index) largest_[kind] = {index, line};
+      at = behind;
+    }
+    if (at == last) return;
+    right = *at++ == '/';
+  }
+  throw UserError(path + ":" + std::to_string(line) + ": '" + shown_word(corner) +
+                  "' names no corner: write v, v/vt, v//vn or v/vt/vn, numbers of those lines");
 }
 
 void ObjIndices::check(const std::string& path) const {

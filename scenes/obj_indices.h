@@ -13,13 +13,15 @@ namespace twinshade {
 
 class ObjIndices {
  public:
-  // A statement of ObjLines, in the file's order. UserError naming `path` and the line: an index of 0, or one from the
-  // end that is before the first. What is no index is left to who reads the face.
+  // A statement of ObjLines, in the file's order. UserError naming `path` and the line: an index of 0, one from the end
+  // that is before the first, or what is no index.
   void read(std::string_view statement, const std::string& path, std::size_t line);
   // At the end, since faces may stand before their vertices. UserError: an index beyond the last.
   void check(const std::string& path) const;
 
  private:
+  void read_corner(std::string_view corner, const std::string& path, std::size_t line);
+
   static constexpr std::size_t kKinds = 3;  // v, vt, vn
   struct Largest {
     std::int64_t index = 0;

@@ -1,6 +1,7 @@
 #include "scenes/obj_lines.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "base/error.h"
 
@@ -39,6 +40,9 @@ constexpr Numbers kNumbers[] = {
     {"vt", [](std::size_t count) { return count >= 1 && count <= 3; }, "1 to 3 numbers (u v w)"},
     {"vn", [](std::size_t count) { return count == 3; }, "3 numbers (x y z)"}};
 
+// Statements of names that assimp reads. It knows statements by their first letters: foo 1 2 3 would be a face.
+constexpr std::string_view kNaming[] = {"usemtl", "g", "o"};
+
 constexpr Numbers kColour = {"Kd", [](std::size_t count) { return count == 1 || count == 3; },
                              "3 numbers (r g b), or 1 for all of them"};
 
@@ -76,13 +80,6 @@ std::size_t number_length(std::string_view text) {
   return at;
 }
 
-std::string shown(std::string_view word) {
-  std::string text(word.substr(0, std::min({word.find_first_of(kBetweenWords), word.size(), kMostShown})));
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  return text;
-}
-
 // Returns how many there were.
 std::size_t add_numbers(std::string& text, std::string_view statement, const Numbers& numbers, const std::string& path,
                         std::size_t line) {
@@ -99,7 +96,7 @@ std::size_t add_numbers(std::string& text, std::string_view statement, const Num
     const std::size_t length = number_length(rest);
     const bool comment = length > 0 && length < rest.size() && rest[length] == '#' && rest[length - 1] != '.';
     if (length == 0 || (length < rest.size() && !is_blank(rest[length]) && !comment))  // 1.#IND is no number
-      refuse("'" + shown(rest) + "' is not a number");
+      refuse("'" + shown_word(rest) + "' is not a number");
     text += rest.front() == '.' || rest.front() == ',' ? " 0" : " ";
     text += rest.substr(0, length);
     at += length;
@@ -111,6 +108,13 @@ std::size_t add_numbers(std::string& text, std::string_view statement, const Num
 }
 
 }  // namespace
+
+std::string shown_word(std::string_view word) {
+  std::string text(word.substr(0, std::min({word.find_first_of(kBetweenWords), word.size(), kMostShown})));
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  return text;
+}
 
 std::string_view ObjLines::take_line() {
   const std::size_t end = std::min(text_.find('\n'), text_.size());
@@ -148,7 +152,10 @@ void add_statement(std::string& text, std::string_view statement, const std::str
     return;
   }
   const bool has_indices = keyword == "f" || keyword == "l" || keyword == "p";
-  text += has_indices ? statement.substr(0, statement.find('#')) : statement;
+  if (has_indices)
+    text += statement.substr(0, statement.find('#'));
+  else if (std::find(std::begin(kNaming), std::end(kNaming), keyword) != std::end(kNaming))
+    text += statement;
 }
 
 std::string undrawn_statement(std::string_view statement) {

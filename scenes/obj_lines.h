@@ -25,9 +25,13 @@ class ObjLines {
   std::size_t number_ = 0, lines_ = 0;
 };
 
+// The word that the text begins with, for messages.
+std::string shown_word(std::string_view text);
+
 // Adds a statement to `text` in the form in which assimp 5.2 reads it as it is meant. It stops at comments in faces,
 // takes .5 for no number, and skips vertices with other counts of numbers than it knows, so that later faces name other
-// vertices than they should: those are refused. UserError naming `path` and the line.
+// vertices than they should: those are refused. Statements that are not drawn are left out. UserError naming `path` and
+// the line.
 void add_statement(std::string& text, std::string_view statement, const std::string& path, std::size_t number);
 
 // What a statement asks for that is not drawn; empty: nothing, or what is refused elsewhere.

@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "experiments/reference_frame.h"
 #include "golden/pictures.h"
+#include "images/image_file.h"
 #include "lighting/environment_light.h"
 #include "scenes/model_file.h"
 #include "scenes/scene.h"
@@ -51,6 +52,10 @@ struct RenderVerb {
       throw UserError("--light all: render draws one; name lightmap, vertex or volume");
     if (!file.empty()) {
       require_picture_ending(file);
+      for (const char* option : {"--exposure", "--tonemap"})
+        if (lower_case_ending(file) != ".png" && command->get_option(option)->count() > 0)
+          throw UserError(std::string(option) + ": PNG pictures alone have it, " + file +
+                          " keeps what was computed: leave it out, or name a .png");
       require_writable_file(file);
     }
     output.require_not_read(files_read(subject, shading), file);
@@ -118,6 +123,7 @@ struct RenderVerb {
     output.require_not_read(scene.files, file);
     note_scene(output, subject, scene);
     Environment environment = load_light(subject);
+    if (!environment.note.empty()) output.note(environment.note);
     if (shading.reference_order > 0)
       environment = environment_of_radiance(environment_radiance(environment, shading.reference_order),
                                             shading.reference_order, 512);

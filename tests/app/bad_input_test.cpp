@@ -156,6 +156,10 @@ TEST_CASE("options that would mean nothing are refused, not ignored") {
     arguments.insert(arguments.end(), options.begin(), options.end());
     check_refused(arguments, {experiment, options.front(), "leave it out"});
   }
+  for (const char* picture : {"a.exr", "a.hdr"}) {
+    check_refused({"render", "quad", "-o", picture, "--exposure", "1"}, {"--exposure: PNG pictures alone have it, a."});
+    check_refused({"render", "quad", "-o", picture, "--tonemap", "aces"}, {"--tonemap: PNG pictures alone have it"});
+  }
 }
 
 TEST_CASE("options of machines that are not drawn on are refused") {

@@ -89,16 +89,27 @@ std::string rows_text(const BackendCheck& check, bool reference) {
   return text;
 }
 
+// Of one row.
+Json row_json(const Values& values, std::size_t row) {
+  Json list = Json::array();
+  const std::uint32_t components = values.type.components();
+  for (std::uint32_t c = 0; c < components; ++c)
+    list.push_back(value_text(values.type.scalar, values.bits[row * components + c]));
+  return list;
+}
+
 Json values_json(const Counterexample& example) {
   Json list = Json::array();
   for (const std::vector<Values>* kind : {&example.values.inputs, &example.values.uniforms})
     for (const Values& values : *kind) {
-      Json shown = Json::array();
-      const std::uint32_t components = values.type.components();
       const bool uniform = kind == &example.values.uniforms;
-      for (std::uint32_t c = 0; c < components; ++c)
-        shown.push_back(value_text(values.type.scalar, values.bits[(uniform ? 0 : example.row * components) + c]));
-      list.push_back({{"name", values.name}, {"type", type_name(values.type)}, {"uniform", uniform}, {"value", shown}});
+      Json json = {{"name", values.name},
+                   {"type", type_name(values.type)},
+                   {"uniform", uniform},
+                   {"value", row_json(values, uniform ? 0 : example.row)}};
+      if (!uniform && values.row_count() > 1)  // without the rows beside it there is no difference to see
+        for (std::size_t row = 0; row < values.row_count(); ++row) json["quad"].push_back(row_json(values, row));
+      list.push_back(std::move(json));
     }
   return list;
 }

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <string>
@@ -152,6 +153,18 @@ TEST_CASE("JSON says what ran and which shader: instruction set, driver, hash; w
   CHECK(provenance["backends"]["egl"].contains("GL_VERSION"));
   CHECK(provenance["shaders"][shader].get<std::string>().size() == 64);
   for (const auto& backend : json["shaders"][0]["backends"]) CHECK(backend["ns_per_invocation"].is_null());
+}
+
+TEST_CASE("JSON has all rows of a quad that derivatives are taken in, or the difference could not be seen again") {
+  if (!why_missing("egl").empty()) return;
+  const Folder folder;
+  const std::string shader =
+      folder.file("a.frag", "in float x; out vec2 y;\nvoid main() { y = vec2(exp(x), dFdx(x)); }\n");
+  const Run run = run_twinshade(arguments(shader));
+  REQUIRE_MESSAGE(run.code == 1, run.err);
+  const nlohmann::json input = run.json()["shaders"][0]["counterexample"]["inputs"][0];
+  REQUIRE(input["quad"].size() == 4);
+  CHECK(std::count(input["quad"].begin(), input["quad"].end(), input["value"]) > 0);
 }
 
 TEST_CASE("NaN and infinities are inputs where they are asked for, and NaN is one class") {

@@ -224,6 +224,7 @@ void add_visibility(Bundle& bundle, const SubjectOptions& options, const Shading
 Bundle bundle_from_scene(const SubjectOptions& options, const ShadingOptions& shading, const Scene& scene,
                          const std::vector<LitTechnique>& baked, const CommonOptions& common, const Output& output) {
   const Environment environment = load_light(options);
+  if (!environment.note.empty()) output.note(environment.note);
 
   BakeOptions bake;
   bake.lightmap_size = options.lightmap_size;

@@ -85,6 +85,7 @@ ExperimentResult run_probe_rmse(const ExperimentOptions& options) {
   std::vector<std::vector<double>> errors;
   for (const Probe& probe : probes) {
     options.progress(probe.name + ": exact irradiance");
+    if (!probe.environment.note.empty()) result.notes.push_back(probe.environment.note);
     const ProbeLight light = measured_light(probe), drawn = options.pictures ? drawn_light(probe) : ProbeLight();
     options.progress(probe.name + ": bases");
     std::vector<std::vector<double>> pictures(bases.size());

@@ -60,7 +60,7 @@ Environment resized(const Environment& environment, std::uint32_t width, std::ui
   const std::vector<Mean> rows = means(environment.height, height, [](std::uint32_t i, std::uint32_t n) {
     return i == n ? 1.0 : -portable::cos(kPi * i / n);  // the sine of the latitude, southwards
   });
-  Environment result{environment.name, width, height, {}};
+  Environment result{environment.name, width, height, {}, environment.note};
   result.radiance.reserve(std::size_t(width) * height);
   for (const Mean& row : rows)
     for (const Mean& column : columns) {
@@ -180,6 +180,7 @@ Environment blend_environments(const Environment& a, const Environment& b, doubl
   Environment result = resized(a, width, height);
   const Environment to = resized(b, width, height);
   result.name = a.name + " + " + b.name;
+  if (result.note.empty()) result.note = b.note;
   for (std::size_t pixel = 0; pixel < result.radiance.size(); ++pixel)
     result.radiance[pixel] = glm::vec3(dvec3(result.radiance[pixel]) * (1 - part) + dvec3(to.radiance[pixel]) * part);
   return result;

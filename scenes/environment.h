@@ -13,6 +13,7 @@ struct Environment {
   std::string name;
   std::uint32_t width = 0, height = 0;
   std::vector<glm::vec3> radiance;  // row-major, row 0 at the zenith
+  std::string note{};               // to be said where it is used; empty: nothing
 
   // Radiance towards `direction` (unit, world space): bilinear between pixel centres, wrapped in longitude, clamped in
   // latitude.

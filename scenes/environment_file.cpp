@@ -23,6 +23,10 @@ bool is_environment_file(const std::string& path) {
 Environment load_environment_file(const std::string& path, bool clamp_radiance) {
   const DecodedImage image = decode_image_file(path);
   Environment environment{std::filesystem::path(path).stem().string(), image.width, image.height, {}};
+  // As angular maps and crosses of cube maps are not
+  if (environment.height > 1 && environment.width != 2 * std::uint64_t(environment.height))
+    environment.note = path + ": " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+                       ", not twice as wide as high; read as lat-long all the same";
   environment.radiance.resize(std::size_t(image.width) * image.height);
   float largest = 0;
   for (float value : image.texels)

@@ -257,6 +257,22 @@ TEST_CASE("an .exr file is read as it is, row 0 at the zenith") {
             "one channel of grey");
 }
 
+TEST_CASE("a picture that is not twice as wide as high is said to be read as lat-long, also blended and turned") {
+  TemporaryFolder folder;
+  const auto with = [&](std::uint32_t width, std::uint32_t height) {
+    write_image(folder.name("a.exr"), int(width), int(height), 3, std::vector<float>(width * height * 3, 1.0f));
+    return load_environment(folder.name("a.exr"));
+  };
+  CHECK(with(6, 3).note == "");
+  CHECK(with(1, 1).note == "");
+  const Environment square = with(4, 4);
+  CHECK(square.note == folder.name("a.exr") + ": 4 x 4, not twice as wide as high; read as lat-long all the same");
+  const Environment constant = load_environment("constant");
+  CHECK(blend_environments(square, constant, 0.5).note == square.note);
+  CHECK(blend_environments(constant, square, 0.5).note == square.note);
+  CHECK(rotate_environment(refine_environment(square, 64, 32), 10).note == square.note);
+}
+
 TEST_CASE("radiance that is NaN, infinite, negative or too large to be summed is refused by pixel, or clamped") {
   TemporaryFolder folder;
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();

@@ -79,6 +79,15 @@ TEST_CASE("uniforms of every type arrive by name") {
   CHECK(value("vec4(light.color, lights[1].power)") == Color{7, 8, 9, 11});
 }
 
+TEST_CASE("a uniform whose path is longer than any one name may be arrives") {
+  const std::string variable(600, 'v'), member(600, 'm');
+  Bundle bundle = test::quad(4, 4);
+  bundle.uniforms = {uniform(variable + "." + member, Scalar::f32, 1, 1, 0, {1.5f})};
+  CHECK(color_of(bundle, "struct S { float " + member + "; };\nuniform S " + variable +
+                             ";\nout vec4 c;\nvoid main() { c = vec4(" + variable + "." + member + "); }") ==
+        Color{1.5f, 1.5f, 1.5f, 1.5f});
+}
+
 TEST_CASE("blocks and storage buffers arrive by block name") {
   Bundle bundle = test::quad(4, 4);
   bundle.buffers = {{"Params", false, bytes_of({1, 2, 3, 4, 5, 0, 0, 0})}, {"Table", true, bytes_of({10, 20, 30})}};

@@ -1,5 +1,7 @@
 #include "raster/gl/worker/program.h"
 
+#include <algorithm>
+
 #include "raster/gl/author_names.h"
 #include "raster/gl/worker/failure.h"
 
@@ -85,12 +87,12 @@ Program::~Program() { gl_.DeleteProgram(id_); }
 void Program::find_uniforms() {
   GLint count = 0;
   gl_.GetProgramiv(id_, GL_ACTIVE_UNIFORMS, &count);
+  std::string name = name_buffer(GL_ACTIVE_UNIFORM_MAX_LENGTH);
   for (GLint i = 0; i < count; ++i) {
-    char name[1024];
     ActiveUniform uniform{};
-    gl_.GetActiveUniform(id_, GLuint(i), sizeof name, nullptr, &uniform.size, &uniform.type, name);
-    uniform.name = author_name(name);
-    uniform.location = gl_.GetUniformLocation(id_, name);
+    gl_.GetActiveUniform(id_, GLuint(i), GLsizei(name.size()), nullptr, &uniform.size, &uniform.type, name.data());
+    uniform.name = author_name(name.c_str());
+    uniform.location = gl_.GetUniformLocation(id_, name.c_str());
     uniform.array = drop_first_element(uniform.name);
     if (uniform.location >= 0) uniforms_.push_back(uniform);  // members of blocks have none
   }
@@ -99,25 +101,35 @@ void Program::find_uniforms() {
 void Program::find_blocks() {
   GLint count = 0;
   gl_.GetProgramiv(id_, GL_ACTIVE_UNIFORM_BLOCKS, &count);
-  char name[1024];
+  std::string name = name_buffer(GL_ACTIVE_UNIFORM_BLOCK_MAX_NAME_LENGTH);
   for (GLuint i = 0; i < GLuint(count); ++i) {
     ActiveBlock block{};
-    gl_.GetActiveUniformBlockName(id_, i, sizeof name, nullptr, name);
+    gl_.GetActiveUniformBlockName(id_, i, GLsizei(name.size()), nullptr, name.data());
     gl_.GetActiveUniformBlockiv(id_, i, GL_UNIFORM_BLOCK_DATA_SIZE, &block.bytes);
-    block.name = author_name(name);
+    block.name = author_name(name.c_str());
     block.index = i;
     uniform_blocks_.push_back(block);
   }
   gl_.GetProgramInterfaceiv(id_, GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &count);
+  GLint longest = 0;
+  gl_.GetProgramInterfaceiv(id_, GL_SHADER_STORAGE_BLOCK, GL_MAX_NAME_LENGTH, &longest);
+  name.assign(std::size_t(std::max(longest, 1)), '\0');
   for (GLuint i = 0; i < GLuint(count); ++i) {
     ActiveBlock block{};
-    gl_.GetProgramResourceName(id_, GL_SHADER_STORAGE_BLOCK, i, sizeof name, nullptr, name);
+    gl_.GetProgramResourceName(id_, GL_SHADER_STORAGE_BLOCK, i, GLsizei(name.size()), nullptr, name.data());
     const GLenum property = GL_BUFFER_DATA_SIZE;
     gl_.GetProgramResourceiv(id_, GL_SHADER_STORAGE_BLOCK, i, 1, &property, 1, nullptr, &block.bytes);
-    block.name = author_name(name);
+    block.name = author_name(name.c_str());
     block.index = i;
     storage_blocks_.push_back(block);
   }
+}
+
+// Room for the longest name of a kind, with its end: that of a member of nested structs has no limit.
+std::string Program::name_buffer(GLenum longest) const {
+  GLint length = 0;
+  gl_.GetProgramiv(id_, longest, &length);
+  return std::string(std::size_t(std::max(length, 1)), '\0');
 }
 
 const Program& ProgramCache::get(const ProgramText& text, const std::vector<std::string>& untouched) {

@@ -42,6 +42,7 @@ class Program {
  private:
   void find_uniforms();
   void find_blocks();
+  std::string name_buffer(GLenum longest) const;
   const GlFunctions& gl_;
   GLuint id_ = 0;
   std::vector<ActiveUniform> uniforms_;

@@ -124,7 +124,6 @@ struct RenderVerb {
     note_scene(output, subject, scene);
     Environment environment = load_light(subject);
     if (!environment.note.empty()) output.note(environment.note);
-    if (!environment.note.empty()) output.note(environment.note);
     if (shading.reference_order > 0)
       environment = environment_of_radiance(environment_radiance(environment, shading.reference_order),
                                             shading.reference_order, 512);

@@ -116,7 +116,8 @@ std::string bake_cache_path(const std::string& key) { return cache_folder() + "/
 std::optional<LightBake> cached_bake(const std::string& key) {
   try {
     const std::string path = bake_cache_path(key);
-    if (!std::filesystem::exists(path)) return std::nullopt;
+    // Anything else in its place (a pipe would be waited for) goes when the bake is kept.
+    if (std::error_code code; !std::filesystem::is_regular_file(path, code)) return std::nullopt;
     if (std::optional<LightBake> bake = deserialize_bake(read_file(path))) {
       touch_cached(path);
       return bake;

@@ -186,7 +186,8 @@ bool deserialize(std::string_view bytes, VisibilityBake& bake) {
 bool find_cached(const std::string& key, VisibilityBake& bake) {
   try {
     const std::string path = bake_cache_path(key);
-    if (!std::filesystem::exists(path)) return false;
+    // Anything else in its place (a pipe would be waited for) goes when the bake is kept.
+    if (std::error_code code; !std::filesystem::is_regular_file(path, code)) return false;
     if (deserialize(read_file(path), bake)) {
       touch_cached(path);
       return true;

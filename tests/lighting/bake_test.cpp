@@ -131,6 +131,13 @@ TEST_CASE("a cached bake is the bake; a damaged entry is rebuilt") {
   CHECK(third.rays_per_second > 0);
   CHECK(third.hash == first.hash);
   CHECK(bake_light(scene, busy_environment(), options).rays_per_second == 0);
+
+  for (const bool by_pipes : {true, false}) {
+    CAPTURE(by_pipes);
+    cache.replace(by_pipes);
+    CHECK(bake_light(scene, busy_environment(), options).hash == first.hash);
+    CHECK(bake_light(scene, busy_environment(), options).rays_per_second == 0);
+  }
 }
 
 TEST_CASE("serialised bakes come back; truncated or altered ones do not") {

@@ -139,6 +139,12 @@ TEST_CASE("a cached bake of visibility is the bake; a damaged entry is rebuilt")
   const VisibilityBake third = bake_visibility(box_on_floor(), options);
   CHECK(third.rays_per_second > 0);
   CHECK(is_same(first, third));
+  for (const bool by_pipes : {true, false}) {
+    CAPTURE(by_pipes);
+    cache.replace(by_pipes);
+    CHECK(is_same(first, bake_visibility(box_on_floor(), options)));
+    CHECK(bake_visibility(box_on_floor(), options).rays_per_second == 0);
+  }
 }
 
 TEST_CASE("scenes without lightmap coordinates are baked per vertex, with a third of each triangle's area") {

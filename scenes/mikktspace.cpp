@@ -87,14 +87,16 @@ void find_neighbours(std::vector<Triangle>& triangles) {
   const auto neighbour = [&](const Edge& edge) -> std::uint32_t& {
     return triangles[edge.triangle].neighbour[edge.corner];
   };
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (neighbour(edges[i]) != kNone) continue;
-    for (std::size_t j = i + 1; j < edges.size() && edges[j].low == edges[i].low && edges[j].high == edges[i].high;
-         ++j) {
-      if (edges[j].upwards == edges[i].upwards || neighbour(edges[j]) != kNone) continue;
+  for (std::size_t start = 0, end = 0; start < edges.size(); start = end) {
+    while (end < edges.size() && edges[end].low == edges[start].low && edges[end].high == edges[start].high) ++end;
+    std::array<std::size_t, 2> next{start, start};  // the first that may be free, of those that go down and up
+    for (std::size_t i = start; i < end; ++i) {
+      if (neighbour(edges[i]) != kNone) continue;
+      std::size_t& j = next[edges[i].upwards ? 0 : 1];
+      while (j < end && (j <= i || edges[j].upwards == edges[i].upwards || neighbour(edges[j]) != kNone)) ++j;
+      if (j == end) continue;
       neighbour(edges[i]) = edges[j].triangle;
       neighbour(edges[j]) = edges[i].triangle;
-      break;
     }
   }
 }

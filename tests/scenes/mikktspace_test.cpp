@@ -176,3 +176,17 @@ TEST_CASE("a fan of a hundred thousand triangles around one vertex is no problem
   const auto tangents = soup.tangents();
   CHECK(glm::length(dvec3(tangents[0]) - dvec3(1, 0, 0)) < 1e-3);
 }
+
+TEST_CASE(
+    "a hundred thousand triangles on one side of an edge are no problem, and the one on its other side joins one") {
+  Soup soup;
+  const int n = 100000;
+  const auto page = [&](double angle, const dvec3& from, const dvec3& to) {
+    const dvec3 out(std::cos(angle), std::sin(angle), 0);
+    for (const dvec3& p : {from, to, out}) soup.corner(p, {0, 0, 1}, {p.x + p.z, p.y});
+  };
+  for (int i = 0; i < n; ++i) page(kTurn * i / n, {0, 0, 0}, {0, 0, 1});
+  page(0.1, {0, 0, 1}, {0, 0, 0});
+  const auto tangents = soup.tangents();
+  CHECK(tangents[3 * n + 1] == tangents[0]);
+}

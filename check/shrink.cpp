@@ -7,6 +7,8 @@
 #include <set>
 #include <tuple>
 
+#include "golden/compare_frames.h"
+
 namespace twinshade {
 namespace {
 
@@ -32,10 +34,11 @@ Values& variable_at(ValueTable& table, const Slot& slot) {
 }
 
 std::vector<std::uint32_t> simpler_values(Scalar scalar, std::uint32_t bits) {
-  if (scalar != Scalar::f32) {
+  if (scalar == Scalar::i32) {
     const auto value = std::int32_t(bits);
     return {0u, 1u, std::uint32_t(value / 2), std::uint32_t(value - (value > 0 ? 1 : value < 0 ? -1 : 0))};
   }
+  if (scalar != Scalar::f32) return {0u, 1u, bits / 2, bits - (bits > 0 ? 1 : 0)};
   std::vector<std::uint32_t> values;
   const auto value = std::bit_cast<float>(bits);
   for (const float simple : {0.0f, 1.0f, 2.0f, 0.5f, 3.0f, -1.0f, -value, std::trunc(value), std::round(value)})
@@ -47,15 +50,16 @@ std::vector<std::uint32_t> simpler_values(Scalar scalar, std::uint32_t bits) {
 
 bool allowed(const InputRange* range, const ValueType& type, std::size_t index, std::uint32_t bits) {
   if (range == nullptr) return true;
-  const double value = type.scalar == Scalar::f32 ? std::bit_cast<float>(bits) : std::int32_t(bits);
+  const double value = value_of(type.scalar, bits);
+  const auto held = [&](double end) { return type.scalar == Scalar::f32 ? double(float(end)) : end; };  // as generated
   switch (range->kind) {
     case InputRange::Kind::unit:
       return false;
     case InputRange::Kind::list:
-      return std::find(range->values.begin(), range->values.end(), value) != range->values.end();
+      return std::any_of(range->values.begin(), range->values.end(), [&](double v) { return held(v) == value; });
     case InputRange::Kind::interval: {
       const auto& [low, high] = range->intervals[range->intervals.size() == 1 ? 0 : index % type.rows];
-      return value >= low && value <= high;
+      return value >= held(low) && value <= held(high);
     }
     default:
       return true;
@@ -243,10 +247,11 @@ class Shrinker {
 int complexity(Scalar scalar, std::uint32_t bits) {
   if (bits == 0) return 0;
   if (scalar == Scalar::f32 && bits == 0x80000000u) return 1;
-  if (scalar != Scalar::f32) {
+  if (scalar == Scalar::i32) {
     const auto value = std::int32_t(bits);
     return (value < 0 ? 1 : 0) + int(std::bit_width(std::uint32_t(std::abs(std::int64_t(value)))));
   }
+  if (scalar != Scalar::f32) return int(std::bit_width(bits));
   const int sign = bits >> 31 != 0 ? 1 : 0, exponent = int(bits >> 23 & 255u);
   const std::uint32_t fraction = bits & 0x7fffffu;
   if (exponent == 255) return 3 + sign;

@@ -57,6 +57,30 @@ TEST_CASE("values stay within the range that was declared") {
         complexity(Scalar::f32, std::bit_cast<std::uint32_t>(5.37f)));
 }
 
+TEST_CASE("uints beyond the largest int shrink within their range, floats to ends of theirs that are none") {
+  InputRange range;
+  range.name = "n";
+  range.intervals = {{3e9, 4294967295.0}};
+  ValueTable table = table_of(0.2f, 1, 1);
+  Values uints;
+  uints.name = "n";
+  uints.type.scalar = Scalar::u32;
+  uints.bits = {4294967295u};
+  table.inputs.push_back(uints);
+  const Differs always = [](const ValueTable& rows) { return std::vector<bool>(rows.rows, true); };
+  const std::uint32_t smallest = shrink(table, {range}, always).inputs[2].bits[0];
+  CHECK(smallest == 4294967295u);  // none is shorter
+  range.intervals = {{2e9, 4294967295.0}};
+  const std::uint32_t shorter = shrink(table, {range}, always).inputs[2].bits[0];
+  CHECK(shorter == 2147483647u);
+
+  range.name = "x";
+  range.kind = InputRange::Kind::list;
+  range.values = {0.2, -0.2};  // no float is either
+  table.inputs[0] = floats("x", {-0.2f});
+  CHECK(at(shrink(table, {range}, always).inputs[0], 0) == 0.2f);
+}
+
 TEST_CASE("changes that work only one at a time still end") {
   const ValueTable small =
       shrink(table_of(5.37f, 2.91f, 1), {}, where([](float x, float y, float) { return x != 0 || y != 0; }));

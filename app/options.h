@@ -37,6 +37,7 @@ Verb add_translate(CLI::App& app);
 Verb add_check(CLI::App& app);
 Verb add_bench(CLI::App& app);
 Verb add_experiment(CLI::App& app);
+Verb add_frontier(CLI::App& app);
 Verb add_eval(CLI::App& app);
 
 // Every verb.

@@ -10,26 +10,15 @@
 #include "base/error.h"
 #include "base/portable_math.h"
 #include "experiments/chart_axis.h"
+#include "experiments/chart_parts.h"
 
 namespace twinshade {
 namespace {
 
-constexpr Color kInk{30, 30, 30}, kFaint{110, 110, 110}, kGrid{222, 222, 222}, kFineGrid{240, 240, 240};
-constexpr double kLabelSize = 12, kRowHeight = 22;
+constexpr double kRowHeight = 22;
 constexpr Color kSeriesColors[] = {{0, 114, 178}, {213, 94, 0}, {0, 158, 115},  {204, 121, 167},
                                    {230, 159, 0}, {0, 0, 0},    {86, 180, 233}, {128, 64, 20}};
 constexpr std::size_t kSeriesColorCount = std::size(kSeriesColors);
-
-void draw_titles(Drawing& drawing, const std::string& title, const std::string& subtitle) {
-  drawing.text({16, 28}, title, {.size = 17, .color = kInk, .bold = true});
-  drawing.text({16, 48}, subtitle, {.size = 12, .color = kFaint});
-}
-
-double widest(const std::vector<std::string>& labels, double size) {
-  double width = 0;
-  for (const std::string& label : labels) width = std::max(width, text_width(label, size));
-  return width;
-}
 
 // Keeps labels that want to be at `wanted` at least `gap` apart and within [low, high], each as near as its neighbours
 // let it.
@@ -56,16 +45,6 @@ std::vector<double> all_values(const std::vector<Series>& series, std::vector<do
   std::vector<double> values;
   for (const Series& s : series) values.insert(values.end(), (s.*member).begin(), (s.*member).end());
   return values;
-}
-
-void draw_horizontal_axis(Drawing& drawing, const Scale& scale, const std::string& title, double top, double bottom,
-                          double middle) {
-  for (const Scale::Tick& tick : scale.ticks()) {
-    const double x = scale.pixel(tick.value);
-    drawing.line({x, top}, {x, bottom}, {tick.label.empty() ? kFineGrid : kGrid, 1, {}});
-    drawing.text({x, bottom + 18}, tick.label, {.size = kLabelSize, .anchor = Anchor::middle, .color = kInk});
-  }
-  drawing.text({middle, bottom + 40}, title, {.size = 13, .anchor = Anchor::middle, .color = kInk});
 }
 
 // A regular polygon's outline; `corner`: in turns clockwise from the right, where its first corner is.
@@ -177,14 +156,8 @@ Drawing draw(const LineChart& chart) {
 
   Drawing drawing(chart.width, chart.height);
   draw_titles(drawing, chart.title, chart.subtitle);
-  for (const Scale::Tick& tick : y.ticks()) {
-    const double at = y.pixel(tick.value);
-    drawing.line({left, at}, {right, at}, {tick.label.empty() ? kFineGrid : kGrid, 1, {}});
-    drawing.text({left - 8, at + 4}, tick.label, {.size = kLabelSize, .anchor = Anchor::end, .color = kInk});
-  }
+  draw_vertical_axis(drawing, y, chart.y.title, left, right, (top + bottom) / 2);
   draw_horizontal_axis(drawing, x, chart.x.title, top, bottom, (left + right) / 2);
-  drawing.text({22, (top + bottom) / 2}, chart.y.title,
-               {.size = 13, .anchor = Anchor::middle, .color = kInk, .upwards = true});
   drawing.path({{left, top}, {left, bottom}, {right, bottom}}, {kFaint, 1, {}});
 
   std::vector<double> wanted, ends;

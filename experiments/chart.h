@@ -1,4 +1,4 @@
-// Charts that one can read: line charts, bar charts and heat maps, as drawings.
+// Charts that one can read: line charts, bar charts, heat maps and scatter plots, as drawings.
 #pragma once
 
 #include <optional>
@@ -52,6 +52,22 @@ struct BarChart {
   double width = 900;
 };
 
+// Points with their names beside them, of a group each, and a line through some.
+struct ScatterChart {
+  std::string title, subtitle;
+  Axis x, y;
+  struct Point {
+    std::string label;
+    double x = 0, y = 0;    // not shown where either is not finite, or not positive on a logarithmic axis
+    std::size_t group = 0;  // of `groups`
+  };
+  std::vector<Point> points{};
+  std::vector<std::string> groups{};   // in the legend
+  std::string line{};                  // what the line is, in the legend; empty: there is none
+  std::vector<std::size_t> on_line{};  // points, in order; each is joined to the next by a step: right, then down
+  double width = 1000, height = 720;
+};
+
 // Values as colours, with the number written into each cell.
 struct HeatMap {
   std::string title, subtitle;
@@ -64,6 +80,8 @@ struct HeatMap {
 Drawing draw(const LineChart& chart);
 Drawing draw(const BarChart& chart);
 Drawing draw(const HeatMap& chart);
+Drawing draw(
+    const ScatterChart& chart);  // scatter_chart.cpp; of the points on the line all names, of others where room is
 
 // The colour of a value in [0, 1], from dark blue to yellow: about matplotlib's viridis (van der Walt and Smith, 2015).
 Color heat_color(double value);

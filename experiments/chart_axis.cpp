@@ -45,7 +45,7 @@ Scale::Scale(const Axis& axis, const std::vector<double>& values, double begin, 
     any = true;
   }
   if (!any) low_ = logarithmic_ ? 0.1 : 0, high_ = 1;
-  if (logarithmic_) {  // whole decades, unless they would leave most of the chart empty
+  if (logarithmic_) {  // whole decades
     const double low_exponent = log10_of(low_), high_exponent = log10_of(high_);
     low_ = power_of_ten(int(std::floor(low_exponent + 1e-9)));
     high_ = power_of_ten(int(std::ceil(high_exponent - 1e-9)));

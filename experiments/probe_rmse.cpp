@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "experiments/bases.h"
 #include "experiments/chart.h"
+#include "experiments/chart_parts.h"
 #include "experiments/probe_light.h"
 #include "lighting/projection.h"
 
@@ -17,7 +18,6 @@ namespace {
 
 constexpr double kTileWidth = 208, kTileHeight = 104, kGap = 16, kTop = 76, kCaption = 34;
 constexpr int kTilesAcross = 4;
-constexpr Color kInk{30, 30, 30}, kFaint{110, 110, 110};
 
 // The reference first, then each basis: its picture, and below it its error, all errors on one scale.
 Drawing comparison(const ProbeLight& light, const std::vector<const TechniqueInfo*>& bases,

@@ -28,33 +28,35 @@ ShaderSource probe(const std::string& name, const std::string& value) {
 
 }  // namespace
 
-ReferenceFrame draw_reference(const Scene& scene, const Environment& environment, const FrameOptions& options,
-                              const ReferenceOptions& trace, const DrawFunction& draw) {
+VisiblePoints draw_visible_points(const Scene& scene, const FrameOptions& options, const DrawFunction& draw) {
   if (scene.procedural_coefficients)
-    throw UserError(scene.name + ": has no surfaces in the world that technique reference could trace");
-  ReferenceFrame out;
+    throw UserError(scene.name + ": has no surfaces in the world that light could be traced to");
+  VisiblePoints out;
   out.bundle = make_bundle(scene, std::span<const LightBake>(), std::vector<LitTechnique>(), options);
   add_attribute(out.bundle, "v_normal", scene.normals);
   add_attribute(out.bundle, "v_tangent", scene.tangents);
   const auto drawn = [&](const char* name, const char* value) { return draw("cpu", out.bundle, probe(name, value)); };
   out.frame = drawn("position", "v_position");
-  Frame& frame = out.frame;
+  const Frame& frame = out.frame;
   const Frame normals = drawn("normal", "surface_normal()"), albedo = drawn("albedo", "surface_albedo()");
-
-  std::vector<ShadedPoint> points;
-  std::vector<std::size_t> pixels;
   const auto at = [](const Frame& from, std::size_t pixel) {
     return glm::vec3(from.color[pixel * 4], from.color[pixel * 4 + 1], from.color[pixel * 4 + 2]);
   };
   for (std::size_t pixel = 0; pixel < frame.coverage.size(); ++pixel) {
     if (!frame.coverage[pixel]) continue;
-    points.push_back({at(frame, pixel), at(normals, pixel), at(albedo, pixel), frame.primitive_id[pixel]});
-    pixels.push_back(pixel);
+    out.points.push_back({at(frame, pixel), at(normals, pixel), at(albedo, pixel), frame.primitive_id[pixel]});
+    out.pixels.push_back(pixel);
   }
-  const std::vector<glm::vec3> radiance = reference_radiance(scene, environment, points, trace);
-  for (std::size_t i = 0; i < pixels.size(); ++i)
-    for (std::size_t c = 0; c < 3; ++c) frame.color[pixels[i] * 4 + c] = radiance[i][int(c)];
   return out;
+}
+
+ReferenceFrame draw_reference(const Scene& scene, const Environment& environment, const FrameOptions& options,
+                              const ReferenceOptions& trace, const DrawFunction& draw) {
+  VisiblePoints visible = draw_visible_points(scene, options, draw);
+  const std::vector<glm::vec3> radiance = reference_radiance(scene, environment, visible.points, trace);
+  for (std::size_t i = 0; i < visible.pixels.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) visible.frame.color[visible.pixels[i] * 4 + c] = radiance[i][int(c)];
+  return {std::move(visible.frame), std::move(visible.bundle)};
 }
 
 }  // namespace twinshade

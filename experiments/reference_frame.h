@@ -1,4 +1,4 @@
-// Technique reference: direct light by rays from every pixel, on the host. It has no shader.
+// Technique reference: direct light by rays from every pixel, on the host. It has no shader. And what it is traced to.
 #pragma once
 
 #include "experiments/experiment.h"
@@ -7,13 +7,24 @@
 
 namespace twinshade {
 
+// What of a scene is visible, for the host to trace light to.
+struct VisiblePoints {
+  Bundle bundle;                    // what position, normal and albedo were drawn from
+  Frame frame;                      // of positions
+  std::vector<ShadedPoint> points;  // one a pixel that is covered, in the frame's order
+  std::vector<std::size_t> pixels;  // its place in the frame
+};
+
+// Position, normal and albedo of each pixel as the CPU's shaders give them (draw, on "cpu"). UserError where the scene
+// has no surfaces in the world.
+VisiblePoints draw_visible_points(const Scene& scene, const FrameOptions& options, const DrawFunction& draw);
+
 struct ReferenceFrame {
   Frame frame;    // colours traced, all else as drawn
   Bundle bundle;  // what position, normal and albedo were drawn from
 };
 
-// Position, normal and albedo of each pixel as the CPU's shaders give them (draw, on "cpu"), then rays
-// (lighting/reference.h). UserError where the scene has no surfaces in the world.
+// Visible points, then rays (lighting/reference.h).
 ReferenceFrame draw_reference(const Scene& scene, const Environment& environment, const FrameOptions& options,
                               const ReferenceOptions& trace, const DrawFunction& draw);
 

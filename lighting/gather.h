@@ -32,6 +32,9 @@ struct SurfaceLight {
   glm::vec3 reflected(const Scene& scene, std::uint32_t triangle, double b1, double b2, double choice) const;
 };
 
+// Texels each way of the lightmap that light is reflected from where it is the first pass of something else.
+inline constexpr std::uint32_t kSurfaceMap = 128;
+
 SurfaceLight gather_surface_light(const Scene& scene, const RayScene& rays, const EnvironmentSampler& light,
                                   const BakeOptions& options);
 

@@ -25,11 +25,14 @@ enum RandomDomain : std::uint64_t {
   kSphereScramble,
   kSphereJitter,
   kInsideRay,
-  // The reference: reference.cpp
+  // The reference: reference.cpp, and which pixels it is traced for
   kReferenceScramble = 48,
   kReferenceJitter,
   kReferenceBright,
   kReferencePlace,
+  kReferenceVertex,
+  kReferenceHalf,
+  kReferencePixel,
 };
 
 }  // namespace twinshade

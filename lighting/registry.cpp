@@ -13,8 +13,9 @@ namespace {
 constexpr TechniqueInfo kTechniques[] = {
 #define BASIS(name, file, domain, count, linear, projection, reads, source) \
   {#name, #file, true, Domain::domain, count, linear, Projection::projection, source, Reads::reads},
-#define TECHNIQUE(name, file, source) \
-  {#name, #file, false, Domain::hemisphere, 0, false, Projection::least_squares, source},
+#define TECHNIQUE(name, file, shows, source)                                                           \
+  {#name,  #file,      false,  Domain::hemisphere,      0,     false,       Projection::least_squares, \
+   source, Reads::all, "none", VisibilityWeights::none, false, Shows::shows},
 #define VISIBILITY(name, file, weights, count, mean, tables, source)                                 \
   {#name,  #file,      false,   Domain::hemisphere,         count, false, Projection::least_squares, \
    source, Reads::all, #tables, VisibilityWeights::weights, mean},

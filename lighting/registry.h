@@ -44,6 +44,9 @@ TexturePacking find_texture_packing(const std::string& name);
 // What a technique of precomputed visibility stores.
 enum class VisibilityWeights { none, sh, pca, ambient };
 
+// What a technique's picture is of: a surface's light, or what the rasterizer can do.
+enum class Shows { light, raster };
+
 // Of a basis' coefficients, at one normal: whether COEF(i) occurs with an i that depends on the normal.
 enum class Reads { all, some };
 
@@ -60,6 +63,7 @@ struct TechniqueInfo {
   std::string_view tables = "none";  // of visibility techniques: kind of L x H tables
   VisibilityWeights weights = VisibilityWeights::none;
   bool has_mean = false;
+  Shows shows = Shows::light;
 };
 
 std::span<const TechniqueInfo> techniques();

@@ -24,7 +24,6 @@ constexpr std::size_t kProbesAtOnce = 4;  // probes handed to a thread at a time
 // A probe that meets more backs than this is inside of something, or behind a sheet, which hides from it what lights
 // the front: the front is lit by those before it.
 constexpr double kBehindShare = 0.25;
-constexpr std::uint32_t kSurfaceMap = 128;  // texels each way of the lightmap that reflected light is taken from
 
 // Sets of one direction in each of `rays` bands of equal solid angle, as DirectionSets, over the whole sphere.
 struct SphereSets {

@@ -183,3 +183,30 @@ TEST_CASE("charts without anything to show are drawn all the same") {
   constant.series.push_back({"zero", {1, 1}, {0, 0}});
   CHECK(draw(constant).svg().find("nan") == std::string::npos);
 }
+
+TEST_CASE("a scatter plot names each point that it shows, apart from each other and from the line") {
+  ScatterChart chart;
+  chart.x.logarithmic = chart.y.logarithmic = true;
+  chart.groups = {"lightmap"};
+  chart.line = "frontier";
+  for (int i = 0; i < 12; ++i)
+    chart.points.push_back({"point_" + std::to_string(i), 10 + 0.01 * i, 5 + 0.01 * (i * 7 % 12), 0});
+  chart.points.push_back({"zero", 0, 5, 0});
+  chart.points.push_back({"undefined", 10, std::nan(""), 0});
+  chart.on_line = {0, 12, 5};
+  const std::string svg = draw(chart).svg();
+  for (int i = 0; i < 12; ++i) CHECK(count(svg, ">point_" + std::to_string(i) + "<") == 1);
+  CHECK(count(svg, ">zero<") == 0);
+  CHECK(count(svg, ">undefined<") == 0);
+  CHECK(count(svg, "have no room here") == 0);
+  CHECK(count(svg, "font-weight=\"bold\">point_") == 2);
+}
+
+TEST_CASE("logarithmic axes of a scatter plot begin and end near its points") {
+  ScatterChart chart;
+  chart.x.logarithmic = chart.y.logarithmic = true;
+  chart.points = {{"a", 21, 210, 0}, {"b", 45, 450, 0}};
+  const std::string svg = draw(chart).svg();
+  for (const char* label : {">20<", ">50<", ">200<", ">500<"}) CHECK(count(svg, label) == 1);
+  for (const char* label : {">10<", ">100<", ">1000<"}) CHECK(count(svg, label) == 0);
+}

@@ -100,6 +100,58 @@ TEST_CASE("traced light of an open floor is the environment's irradiance") {
   CHECK_THROWS_AS(reference_radiance(scene, environment, points, options), UserError);
 }
 
+TEST_CASE("light that bounces is what form factors say: beside a long wall under even light half is direct") {
+  // From the floor the wall fills half of what the cosine weighs, and so does the floor from the wall
+  Scene scene = scene_with_albedo(0.5f);
+  add_rectangle(scene, {-50, 0, 50}, {100, 0, 0}, {0, 0, -50}, {0.02f, 0.02f}, 0.45f);
+  add_rectangle(scene, {-50, 0, 0}, {100, 0, 0}, {0, 50, 0}, {0.52f, 0.02f}, 0.45f);
+  const std::vector<ShadedPoint> points = {{{0, 0, 0.5f}, {0, 1, 0}, {1, 1, 1}, 0}};
+  BakeOptions surfaces;
+  surfaces.rays = 1024;
+  ReferenceOptions options;
+  options.rays = 16384;
+  options.show_progress = false;
+  const auto halves = reference_light(scene, uniform_environment(1), points, surfaces, options);
+  for (const auto& half : halves) {
+    CHECK(half[0].direct.r == doctest::Approx(0.5).epsilon(0.02));
+    CHECK(half[0].bounced.r == doctest::Approx(0.5 * 0.5 * 0.5).epsilon(0.04));
+  }
+  CHECK(halves[0][0].direct.r != halves[1][0].direct.r);
+  options.rays = 0;
+  CHECK_THROWS_AS(reference_light(scene, uniform_environment(1), points, surfaces, options), UserError);
+}
+
+TEST_CASE("traced light with its bounce is what a lightmap's texels are baked to") {
+  const Scene scene = shadowed_floor();
+  const Environment environment = load_environment("sky");
+  const Points points = texels_of(scene);
+  BakeOptions bake;
+  bake.lightmap_size = 32;
+  bake.rays = 4096;
+  bake.use_cache = false;
+  bake.show_progress = false;
+  ReferenceOptions options;
+  options.rays = 4096;
+  options.show_progress = false;
+  const LightBake light = bake_light(scene, environment, bake);
+  const auto halves = reference_light(scene, environment, points.list, bake, options);
+  std::vector<double> baked, traced;
+  double mean = 0, bounced = 0;
+  for (std::size_t i = 0; i < points.list.size(); ++i) {
+    baked.push_back(light.irradiance[std::size_t(points.cell[i]) * 3]);
+    traced.push_back((halves[0][i].direct.r + halves[0][i].bounced.r + halves[1][i].direct.r + halves[1][i].bounced.r) /
+                     2);
+    mean += traced.back() / double(points.list.size());
+    bounced += halves[0][i].bounced.r / double(points.list.size());
+  }
+  CHECK(bounced > 0.02 * mean);
+  // The bake gathers from all sites of a texel, rays from the first: they differ at shadows' edges
+  double difference = 0;
+  for (std::size_t i = 0; i < baked.size(); ++i) difference += (baked[i] - traced[i]) / double(baked.size());
+  CHECK(std::abs(difference) < 0.02 * mean);
+  CHECK(rms_difference(baked, traced) < 0.25 * mean);
+}
+
 TEST_CASE("unc6 comes closer to traced light the more rays its visibility has, and the more of its order is kept") {
   const Scene scene = shadowed_floor();
   const std::vector<double> light = environment_radiance(load_environment("sky"), 6);

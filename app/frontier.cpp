@@ -16,8 +16,6 @@
 #include "app/table.h"
 #include "base/error.h"
 #include "base/file.h"
-#include "base/parallel.h"
-#include "base/processors.h"
 #include "cpu_shaders/machine.h"
 #include "experiments/chart.h"
 #include "experiments/frame_error.h"
@@ -319,10 +317,7 @@ int FrontierVerb::run() const {
   apply(common);
   Output output(common, {}, folder);
   if (cpu.isa) require_isa(*cpu.isa);
-  if (thread_count() > processor_count())
-    throw UserError(
-        fmt::format("--threads {}: timings need a processor for each, and this process may use {} processors",
-                    thread_count(), processor_count()));
+  bench::require_processor_for_each_thread();
   if (!folder.empty()) output.claim(files_written());
   output.require_not_read(files_read(subject, shading));
   if (!folder.empty()) require_writable_folder(folder);

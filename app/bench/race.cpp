@@ -7,6 +7,8 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/parallel.h"
+#include "base/processors.h"
 #include "cpu_shaders/load/load.h"
 #include "cpu_shaders/machine.h"
 #include "raster/tiled/entry.h"
@@ -66,6 +68,13 @@ const ShaderEntry* find_code(const CpuOptions& cpu, const ShaderSource& source) 
 
 std::string Way::machine() const {
   return is_cpu() ? fmt::format("cpu {} {}", isa_name(*cpu.isa), number_name(*cpu.number)) : renderer;
+}
+
+void require_processor_for_each_thread() {
+  if (thread_count() > processor_count())
+    throw UserError(
+        fmt::format("--threads {}: timings need a processor for each, and this process may use {} processors",
+                    thread_count(), processor_count()));
 }
 
 std::vector<Way> all_ways(const CpuOptions& cpu, const std::vector<AttributeMode>& modes, bool host_fma) {

@@ -36,6 +36,9 @@ struct Way {
   std::string name() const { return depth_prepass ? renderer + ", depth first" : renderer; }
 };
 
+// UserError where --threads is more than the processors that this process may use: the scheduler would be timed.
+void require_processor_for_each_thread();
+
 // The CPU, once for each instruction set that `cpu` admits and each of the attribute modes, then llvmpipe through EGL
 // with ordinary varyings, with and without filling depth first.
 std::vector<Way> all_ways(const CpuOptions& cpu, const std::vector<AttributeMode>& modes, bool host_fma);

@@ -145,7 +145,6 @@ class ModuleEmitter {
       const auto found = interface_.globals.find(id);
       if (found == interface_.globals.end() || !found->second.mentioned) continue;
       const Global& g = found->second;
-      const Type& t = module_.type(g.type);
       switch (g.role) {
         case Role::input:
           write_input(g);
@@ -183,7 +182,6 @@ class ModuleEmitter {
       if (g.role == Role::output)
         outputs_ += "    output(" + std::to_string(g.first_component) + ", " + g.name + ");\n";
       if (g.role == Role::frag_depth) outputs_ += "    frag_depth(" + g.name + ");\n";
-      (void)t;
     }
     write_constructor();
     out.line("");

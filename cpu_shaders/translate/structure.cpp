@@ -10,8 +10,7 @@ namespace twinshade::spirv {
 namespace {
 
 // A phi becomes a variable: stored at the end of each predecessor, loaded where the phi was. (glslang writes phis for
-// && and
-// || only: no two of them feed each other.)
+// && and || only: no two of them feed each other.)
 void lower_phis(Module& module, Function& function) {
   const auto pointer_to = [&](Id type) {
     for (const auto& [id, t] : module.types)

@@ -127,13 +127,15 @@ std::string plain_materials(const std::string& library, const std::string& path,
   const std::set<std::size_t> without_colour = colourless(library);
   std::set<std::string> ignored;
   std::string text;
+  bool in_material = false;  // assimp crashes at pictures before the first one
   for (ObjLines lines(library); lines.next(); text += '\n') {
     std::string rest(lines.statement());
     const std::string keyword = take_word(rest), lower = lower_case(keyword);
     std::string words = rest;
     const std::string first = lower_case(take_word(words));
     if (lower == "newmtl") {
-      text += keyword + ' ' + rest;
+      text += "newmtl " + rest;
+      in_material = true;
       // assimp's colour, where there is none, is grey and would darken the picture.
       if (without_colour.count(std::size_t(lines.number())) != 0) text += "\nKd 1 1 1";
     } else if (lower == "kd" && (first == "xyz" || first == "spectral")) {
@@ -144,7 +146,7 @@ std::string plain_materials(const std::string& library, const std::string& path,
       const std::string name = texture_name(rest, ignored);
       if (name.empty())
         notes.insert("line " + std::to_string(lines.number()) + ": " + keyword + " names no file");
-      else
+      else if (in_material)
         text += keyword + ' ' + name;
     } else if (const std::string note = undrawn(lower, rest); !note.empty()) {
       notes.insert(note);

@@ -47,8 +47,8 @@ TEST_CASE("a texture line is cut down to keyword and name, whatever options and 
     CHECK(notes == options);
   }
   Notes notes;
-  CHECK(plain("bump -bm 1 n.png\nmap_Bump -bm 0.5 n.png\nnorm n.png ", notes) ==
-        "bump n.png\nmap_Bump n.png\nnorm n.png\n");
+  CHECK(plain("newmtl a\nbump -bm 1 n.png\nmap_Bump -bm 0.5 n.png\nnorm n.png ", notes) ==
+        "newmtl a\nbump n.png\nmap_Bump n.png\nnorm n.png\n");
   CHECK(notes == Notes{ignored("-bm")});
   notes.clear();
   CHECK(plain("map_Ks -s 2 2 2 a.png \nmap_Kd\n# map_Kd -s 1 a.png\nKs 1\n", notes) == "\n\n\n\n");
@@ -103,4 +103,11 @@ TEST_CASE("an OBJ's texture is found behind its options and before blanks; what 
     CHECK(scene.materials[0].albedo_image == 0);
     CHECK(has_note(scene, "m.mtl: the option -s") == (std::string(line).find("-s") != std::string::npos));
   }
+}
+
+TEST_CASE("a picture before the first material of a library belongs to none") {
+  std::set<std::string> notes;
+  CHECK(plain_materials("bump a.png\nmap_Kd a.png\nnewmtl red\nKd 1 0 0\n", "m.mtl", notes) ==
+        "\n\nnewmtl red\nKd 1 0 0\n");
+  CHECK(plain_materials("NEWMTL red\n", "m.mtl", notes) == "newmtl red\n");
 }

@@ -90,11 +90,14 @@ TEST_CASE("JSON goes to a file whole, and the table to stdout") {
 TEST_CASE("render writes every kind of picture, and nothing else") {
   const Folder folder;
   for (const char* name : {"a.exr", "a.hdr", "a.png"}) {
-    const Run run =
-        run_twinshade(small_quad({"render"}, {"-o", folder / name, "--exposure", "-1", "--tonemap", "aces"}));
+    const Run run = run_twinshade(small_quad({"render"}, {"-o", folder / name}));
     INFO(run.err);
     CHECK(run.code == 0);
   }
+  const std::string png = read_file(folder / "a.png");
+  CHECK(run_twinshade(small_quad({"render"}, {"-o", folder / "a.png", "--exposure", "-1", "--tonemap", "aces"})).code ==
+        0);
+  CHECK(read_file(folder / "a.png") != png);
   CHECK(folder.names() == std::vector<std::string>{"a.exr", "a.hdr", "a.png"});
 }
 

@@ -40,13 +40,14 @@ struct Truths {
 
 struct Candidate {
   Shading shading;
-  const TechniqueInfo* technique;
+  const TechniqueInfo* technique;  // null: a user's shader, which can read baked light alone
+  const Bundle* bundle;
   Timing timing;
   FrameError error{};
   double arithmetic = std::nan("");  // of float, over the frame shaded in double
 
-  bool bounced() const { return technique->weights == VisibilityWeights::none; }
-  int stored() const { return technique->count * (technique->weights == VisibilityWeights::none ? 3 : 1); }
+  bool bounced() const { return !technique || technique->weights == VisibilityWeights::none; }
+  int stored() const { return technique ? technique->count * (bounced() ? 3 : 1) : 0; }  // 0: not known
   double shade_ns() const { return timing.stage(Stage::shade) * 1e6 / double(timing.shaded_pixels); }
 };
 
@@ -65,12 +66,17 @@ struct FrontierVerb {
 
  private:
   static std::vector<std::string> files_written();
+  // --shader is drawn beside techniques, not instead of them.
+  ShadingOptions techniques() const {
+    ShadingOptions options = shading;
+    options.shader.clear();
+    return options;
+  }
   void require_traceable() const;
   Truths trace(const Output& output) const;
   std::vector<Candidate> candidates(const Subject& ready, std::string& skipped) const;
-  void measure(std::vector<Candidate>& list, const Subject& ready, const Truths& truths, const Output& output,
-               Provenance& provenance) const;
-  double arithmetic_error(const Candidate& candidate, const Bundle& bundle, const Frame& frame, const Truth& at) const;
+  void measure(std::vector<Candidate>& list, const Truths& truths, const Output& output, Provenance& provenance) const;
+  double arithmetic_error(const Candidate& candidate, const Frame& frame, const Truth& at) const;
   Way way() const;
 };
 
@@ -143,26 +149,25 @@ Truths FrontierVerb::trace(const Output& output) const {
 std::vector<Candidate> FrontierVerb::candidates(const Subject& ready, std::string& skipped) const {
   std::vector<Candidate> list;
   std::string said;
-  for (Shading& shader : load_shadings(shading, ready)) {
+  for (Shading& shader : load_shadings(techniques(), ready)) {
     const TechniqueInfo& technique = find_technique(shader.technique);
     if (technique.shows == Shows::light) {
-      list.push_back({std::move(shader), &technique, {}});
+      list.push_back({std::move(shader), &technique, &ready.bundle, {}});
       continue;
     }
     const std::string reason = "it shows what the rasterizer can do: there is no light to compare";
-    if (!wants_all(shading)) throw UserError(fmt::format("technique {}: {}", technique.name, reason));
+    if (!wants_all(techniques())) throw UserError(fmt::format("technique {}: {}", technique.name, reason));
     if (said != technique.name) skipped += fmt::format("skipped {}: {}\n", technique.name, reason);
     said = technique.name;
   }
   return list;
 }
 
-double FrontierVerb::arithmetic_error(const Candidate& candidate, const Bundle& bundle, const Frame& frame,
-                                      const Truth& at) const {
+double FrontierVerb::arithmetic_error(const Candidate& candidate, const Frame& frame, const Truth& at) const {
   CpuOptions exact = cpu;
   exact.isa.reset();
   exact.number = Number::float64;
-  const Frame shaded = Machines(exact, true).draw("cpu", bundle, candidate.shading.source, DrawOptions());
+  const Frame shaded = Machines(exact, true).draw("cpu", *candidate.bundle, candidate.shading.source, DrawOptions());
   Truth in_double;
   in_double.pixels = at.pixels;
   for (const std::size_t pixel : at.pixels)
@@ -172,8 +177,8 @@ double FrontierVerb::arithmetic_error(const Candidate& candidate, const Bundle& 
 }
 
 // Techniques take turns within a round, in reversed order every other round: it is they that are compared.
-void FrontierVerb::measure(std::vector<Candidate>& list, const Subject& ready, const Truths& truths,
-                           const Output& output, Provenance& provenance) const {
+void FrontierVerb::measure(std::vector<Candidate>& list, const Truths& truths, const Output& output,
+                           Provenance& provenance) const {
   const Way best = way();
   for (Candidate& candidate : list) {
     candidate.timing.way = bench::distinct_ways({best}, candidate.shading.source, cpu.isa).front();
@@ -191,11 +196,11 @@ void FrontierVerb::measure(std::vector<Candidate>& list, const Subject& ready, c
         candidate.error = frame_error(frame, truth);
         if (!arithmetic) return;
         output.progress(candidate.shading.label() + " in double");
-        candidate.arithmetic = arithmetic_error(candidate, ready.bundle, frame, truth);
+        candidate.arithmetic = arithmetic_error(candidate, frame, truth);
       };
-      const Timing timing =
-          bench::race({candidate.timing.way}, ready.bundle, candidate.shading.source, candidate.shading.source, once)
-              .front();
+      const Timing timing = bench::race({candidate.timing.way}, *candidate.bundle, candidate.shading.source,
+                                        candidate.shading.source, once)
+                                .front();
       if (!timing.failure.empty()) throw UserError(candidate.shading.label() + ": " + timing.failure);
       candidate.timing.shaded_pixels = timing.shaded_pixels;
       candidate.timing.milliseconds.push_back(timing.milliseconds.front());
@@ -231,7 +236,8 @@ Rows rows_of(const std::vector<Candidate>& list, const Frontiers& best) {
     const Candidate& candidate = list[i];
     const Quartiles ms = quartiles(candidate.timing.milliseconds);
     const Shading& shader = candidate.shading;
-    rows.add({Cell(shader.technique), Cell(shader.light), shader.map.empty() ? Cell() : Cell(shader.map),
+    rows.add({Cell(shader.technique), shader.light.empty() ? Cell() : Cell(shader.light),
+              shader.map.empty() ? Cell() : Cell(shader.map),
               Cell(std::string(candidate.bounced() ? "bounced" : "direct")),
               candidate.stored() > 0 ? Cell(std::int64_t(candidate.stored())) : Cell(), Cell(ms.median), Cell(ms.q1),
               Cell(ms.q3), Cell(candidate.timing.ns_per_pixel()), Cell(candidate.shade_ns()),
@@ -300,14 +306,16 @@ std::vector<Picture> pictures_of(const std::vector<Candidate>& list, const Front
     if (!candidate.shading.map.empty()) map = candidate.shading.map;
   }
   for (const Candidate& candidate : list) {
-    const std::string group = candidate.bounced() ? candidate.shading.light : "visibility, " + candidate.shading.light;
+    const std::string group = !candidate.technique  ? "own shader"
+                              : candidate.bounced() ? candidate.shading.light
+                                                    : "visibility, " + candidate.shading.light;
     const std::size_t place = std::size_t(std::find(groups.begin(), groups.end(), group) - groups.begin());
     if (place == groups.size()) groups.push_back(group);
     const std::string name = candidate.shading.technique +
                              (several_maps && !candidate.shading.map.empty() ? " " + candidate.shading.map : "");
     const double error = 100 * candidate.error.rms;
     speed.points.push_back({name, candidate.shade_ns(), error, place});
-    storage.points.push_back({name, double(candidate.stored()), error, place});
+    storage.points.push_back({name, candidate.stored() > 0 ? double(candidate.stored()) : std::nan(""), error, place});
   }
   speed.groups = storage.groups = groups;
   return {{"frontier", draw(speed)}, {"frontier-storage", draw(storage)}};
@@ -324,14 +332,17 @@ int FrontierVerb::run() const {
   require_traceable();
 
   Provenance provenance(common);
-  const Subject ready = load_subject(subject, shading, common, output);
+  Subject own;
+  if (!shading.shader.empty()) own = load_subject(subject, shading, common, output);
+  const Subject ready = load_subject(subject, techniques(), common, output);
   provenance.add(ready);
   std::string skipped;
   for (const auto& [technique, reason] : ready.skipped)
     if (technique != kReferenceTechnique) skipped += fmt::format("skipped {}: {}\n", technique, reason);
   std::vector<Candidate> list = candidates(ready, skipped);
+  if (!shading.shader.empty()) list.push_back({load_shadings(shading, own).front(), nullptr, &own.bundle, {}, {}});
   const Truths truths = trace(output);
-  measure(list, ready, truths, output, provenance);
+  measure(list, truths, output, provenance);
 
   const std::size_t traced = truths.direct.pixels.size();
   const std::string what =
@@ -371,8 +382,8 @@ Verb add_frontier(CLI::App& app) {
   verb->command = command;
   add_subject_options(*command, verb->subject);
   require_second_environment(*command);
-  add_technique_option(*command, verb->shading, "all");
-  add_light_option(*command, verb->shading);
+  add_shading_options(*command, verb->shading, "all");
+  command->get_option("--shader")->description("a fragment shader of your own, measured beside the techniques");
   add_whole_option(*command, "--pixels", "pixels whose light is traced (default: 16384)", 1, 1u << 24,
                    [v = verb.get()](std::uint64_t value) { v->pixels = value; });
   add_whole_option(*command, "--reference-rays", "rays that light is traced by, for each of them (default: 512)", 2,

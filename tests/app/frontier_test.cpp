@@ -90,6 +90,31 @@ TEST_CASE("in double a technique is the same but for float's rounding") {
   CHECK(row["arithmetic_error"] < 1e-5);
 }
 
+TEST_CASE("a user's shader is measured beside techniques: the same basis written anew has the same error") {
+  const Folder folder;
+  const std::string shader = folder.file("own.frag", R"(#version 450
+in vec2 v_uv;
+in vec2 v_lightmap_uv;
+flat in int v_material;
+uniform sampler2DArray albedo_maps;
+uniform sampler2DArray coefficients_sh2;
+out vec4 color;
+void main() {
+  vec3 irradiance = 0.282094792 * texture(coefficients_sh2, vec3(v_lightmap_uv, 0)).rgb +
+                    0.488602512 * texture(coefficients_sh2, vec3(v_lightmap_uv, 2)).rgb;
+  color = vec4(irradiance / 3.14159265 * texture(albedo_maps, vec3(v_uv, v_material)).rgb, 1);
+}
+)");
+  const Run run = frontier({"--technique", "sh2", "--shader", shader, "--normal-map", "off", "--json", "-"});
+  REQUIRE_MESSAGE(run.code == 0, run.err);
+  const nlohmann::json rows = run.json()["rows"];
+  REQUIRE(rows.size() == 2);
+  CHECK(rows[1]["technique"] == shader);
+  CHECK(rows[1]["light"].is_null());
+  CHECK(rows[1]["stored"].is_null());
+  CHECK(double(rows[1]["error"]) == doctest::Approx(double(rows[0]["error"])).epsilon(1e-3));
+}
+
 TEST_CASE("frontier refuses what has no light to compare") {
   const auto refused = [](const std::vector<std::string>& arguments, const char* reason) {
     const Run run = run_twinshade(arguments);

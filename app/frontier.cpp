@@ -265,7 +265,7 @@ std::string table_of(const std::vector<Candidate>& list, const Frontiers& best, 
     const Candidate& candidate = list[i];
     const bool speed = contains(best.speed, i), storage = contains(best.storage, i);
     std::vector<std::string> cells{candidate.shading.technique,
-                                   candidate.shading.light,
+                                   candidate.technique ? candidate.shading.light : "-",
                                    candidate.shading.map.empty() ? "-" : candidate.shading.map,
                                    speed && storage ? "speed, storage"
                                    : speed          ? "speed"
@@ -311,8 +311,9 @@ std::vector<Picture> pictures_of(const std::vector<Candidate>& list, const Front
                                                     : "visibility, " + candidate.shading.light;
     const std::size_t place = std::size_t(std::find(groups.begin(), groups.end(), group) - groups.begin());
     if (place == groups.size()) groups.push_back(group);
-    const std::string name = candidate.shading.technique +
-                             (several_maps && !candidate.shading.map.empty() ? " " + candidate.shading.map : "");
+    std::string name = candidate.technique ? candidate.shading.technique
+                                           : std::filesystem::path(candidate.shading.technique).filename().string();
+    if (several_maps && !candidate.shading.map.empty()) name += " " + candidate.shading.map;
     const double error = 100 * candidate.error.rms;
     speed.points.push_back({name, candidate.shade_ns(), error, place});
     storage.points.push_back({name, candidate.stored() > 0 ? double(candidate.stored()) : std::nan(""), error, place});

@@ -13,6 +13,7 @@
 #include "app/options.h"
 #include "base/error.h"
 #include "base/names.h"
+#include "base/utf8.h"
 #include "raster/renderer.h"
 #if TWINSHADE_HAS_GL
 #include "raster/gl/gl_renderer.h"
@@ -20,12 +21,6 @@
 
 namespace twinshade {
 namespace {
-
-std::string one_line(std::string text) {
-  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
 
 int fail(const std::string& what) {
   std::fprintf(stderr, "twinshade: %s\n", one_line(what).c_str());  // fmt::print throws where stderr is closed

@@ -13,6 +13,7 @@
 #include <iterator>
 
 #include "base/error.h"
+#include "base/utf8.h"
 #include "cpu_shaders/shader_source.h"
 
 namespace twinshade {
@@ -133,7 +134,7 @@ void Output::text(const std::string& text) const {
 
 void Output::note(const std::string& line) const {
   clear_progress();
-  if (!options_.quiet) std::fprintf(stderr, "note: %s\n", line.c_str());
+  if (!options_.quiet) std::fprintf(stderr, "note: %s\n", one_line(line).c_str());
 }
 
 void Output::progress(const std::string& line) const {

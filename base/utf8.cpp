@@ -5,6 +5,8 @@
 namespace twinshade {
 namespace {
 
+constexpr const char* kReplacement = "\xef\xbf\xbd";  // U+FFFD
+
 // Bytes of the character that begins at `at`; 0 where none does.
 std::size_t character_length(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
@@ -29,11 +31,29 @@ std::string with_characters_alone(std::string_view text) {
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t length = character_length(text, i);
     if (length == 0)
-      result += "\xef\xbf\xbd";
+      result += kReplacement;
     else
       result.append(text, i, length);
     i += std::max<std::size_t>(length, 1);
   }
+  return result;
+}
+
+std::string one_line(std::string_view text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const bool second_set = byte == 0xc2 && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) >= 0x80 &&
+                            static_cast<unsigned char>(text[i + 1]) < 0xa0;  // C1, ECMA-48
+    if (byte == '\n' || byte == '\t' || byte == '\r')
+      result += ' ';
+    else if (byte < 0x20 || byte == 0x7f || second_set)
+      result += kReplacement;
+    else
+      result += text[i];
+    if (second_set) ++i;
+  }
+  result.erase(result.find_last_not_of(' ') + 1);
   return result;
 }
 

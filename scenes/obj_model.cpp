@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string one_line(std::string text) {
+std::string first_line(std::string text) {
   text = text.substr(0, text.find('\n'));
   return text.empty() ? "unknown reason" : text;
 }
@@ -115,7 +115,7 @@ class Reader {
     const aiScene* scene = importer.ReadFile(path_, aiProcess_Triangulate | aiProcess_SortByPType);
     if (!scene || !scene->mRootNode) {
       if (importer.GetException()) rethrow_lack_of_memory(importer.GetException());
-      throw UserError(path_ + ": cannot be read: " + one_line(importer.GetErrorString()));
+      throw UserError(path_ + ": cannot be read: " + first_line(importer.GetErrorString()));
     }
     model_.cos_crease = portable::cos(portable::kPi / 4);
     for (unsigned i = 0; i < scene->mNumMaterials; ++i) read_material(*scene->mMaterials[i]);

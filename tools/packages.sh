@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what the build needs, from Debian 12's packages; nothing to do where all are there already. Sourced by the
-# other scripts, runs alone too. "all" adds what `tools/test.sh --all` needs.
+# other scripts, runs alone too. "all" adds what `tools/test.sh --all` needs, "emulator" what tools/emulate_avx512.sh does.
 set -euo pipefail
 
 packages=(ca-certificates cmake ninja-build clang g++ pkg-config
@@ -10,6 +10,8 @@ packages=(ca-certificates cmake ninja-build clang g++ pkg-config
   libeigen3-dev libembree-dev libtbb-dev libassimp-dev libcli11-dev nlohmann-json3-dev libfmt-dev gdb)
 if [ "${1:-}" = all ]; then
   packages+=(libclang-rt-14-dev g++-aarch64-linux-gnu qemu-user)
+elif [ "${1:-}" = emulator ]; then
+  packages+=(bochs bochsbios vgabios isolinux syslinux-common xorriso busybox-static cpio)
 fi
 
 missing=()

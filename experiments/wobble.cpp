@@ -2,13 +2,13 @@
 // irradiance max(0, n . light) should look the same from wherever it shines. A basis that is not rotation invariant
 // makes its peak rise and fall and stray from the light, and lights the dark side in rings.
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/parallel.h"
 #include "base/portable_math.h"
 #include "experiments/bases.h"
 #include "experiments/chart.h"
+#include "experiments/directions.h"
 #include "experiments/probe_light.h"
 #include "lighting/irradiance_module.h"
 #include "lighting/projection.h"
@@ -24,21 +24,6 @@ constexpr int kPublishedLights = 240;
 constexpr int kRingDegrees = 2, kSpokes = 24;  // where irradiance is looked at, about the light
 constexpr int kRings = 180 / kRingDegrees + 1;
 constexpr int kCellPoints = 10;  // of the quadrature that fits
-
-// Evenly over the sphere: Fibonacci lattice (Gonzalez, Measurement of areas on a sphere using Fibonacci and
-// latitude-longitude lattices, 2010).
-glm::dvec3 lattice_direction(std::size_t i, std::size_t count) {
-  const double z = 1 - (2 * double(i) + 1) / double(count), radius = std::sqrt(1 - z * z);
-  const double turns = double(i) * (std::sqrt(5.0) - 1) / 2, angle = 2 * kPi * (turns - std::floor(turns));
-  return {radius * portable::cos(angle), radius * portable::sin(angle), z};
-}
-
-// Two directions perpendicular to a unit vector and to each other (Duff et al., Building an Orthonormal Basis,
-// Revisited, JCGT 2017).
-std::array<glm::dvec3, 2> tangents(const glm::dvec3& n) {
-  const double sign = n.z < 0 ? -1 : 1, a = -1 / (sign + n.z), b = n.x * n.y * a;
-  return {glm::dvec3(1 + sign * n.x * n.x * a, sign * b, -sign * n.x), glm::dvec3(b, sign + n.y * n.y * a, -n.y)};
-}
 
 // kRings rings of kSpokes normals about the light, from the light to its opposite.
 std::vector<glm::dvec3> normals_about(const glm::dvec3& light) {
@@ -133,14 +118,8 @@ class Basis {
   // the grid.
   glm::dvec3 climb(const std::vector<double>& coefficients, glm::dvec3 n, double value, double& peak) const {
     for (double step = kRingDegrees * kPi / 180; step > 1e-4; step /= 2) {
-      const auto [u, v] = tangents(n);
-      std::vector<glm::dvec3> around;
-      for (int k = 0; k < 8; ++k) {
-        const double angle = k * kPi / 4;
-        const glm::dvec3 p = n + (u * portable::cos(angle) + v * portable::sin(angle)) * step;
-        around.push_back(p / std::sqrt(glm::dot(p, p)));
-      }
-      const std::vector<double> values = irradiance(coefficients, around);
+      const auto around = directions_around(n, step);
+      const std::vector<double> values = irradiance(coefficients, {around.begin(), around.end()});
       const std::size_t best = std::size_t(std::max_element(values.begin(), values.end()) - values.begin());
       if (values[best] > value) n = around[best], value = values[best];
     }

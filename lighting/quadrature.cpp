@@ -79,8 +79,7 @@ Quadrature hemisphere_quadrature(int rings) {
   return out;
 }
 
-Quadrature icosahedral_quadrature(int points) {
-  const std::vector<Node> nodes = gauss_legendre(points);
+std::vector<glm::dvec3> icosahedron_vertices() {
   const double ratio = (1 + std::sqrt(5.0)) / 2;
   std::vector<glm::dvec3> vertices;
   for (int axis = 0; axis < 3; ++axis)
@@ -91,6 +90,12 @@ Quadrature icosahedral_quadrature(int points) {
         v[(axis + 2) % 3] = one;
         vertices.push_back(unit(v));
       }
+  return vertices;
+}
+
+Quadrature icosahedral_quadrature(int points) {
+  const std::vector<Node> nodes = gauss_legendre(points);
+  const std::vector<glm::dvec3> vertices = icosahedron_vertices();
   const auto adjacent = [&](std::size_t i, std::size_t j) { return glm::dot(vertices[i], vertices[j]) > 0.4; };
 
   // Each face in six by its medians. The horizons of the vertices run through the middles of the edges, and cut each

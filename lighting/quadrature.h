@@ -25,8 +25,11 @@ Quadrature sphere_quadrature(double z_low, int rings);
 // functions with half powers of z and 1 - z (Zernike, HSH, Makhotkin).
 Quadrature hemisphere_quadrature(int rings);
 
+// The twelve vertices of the icosahedron (0, +-Phi, +-1), (+-1, 0, +-Phi), (+-Phi, +-1, 0), on the unit sphere.
+std::vector<glm::dvec3> icosahedron_vertices();
+
 // The sphere in cells within which piecewise bases are smooth: no cell crosses an octant's border, an edge of the
-// icosahedron (0, +-Phi, +-1), (+-1, 0, +-Phi), (+-Phi, +-1, 0), or the horizon of one of its vertices. Gauss-Legendre
+// icosahedron, or the horizon of one of its vertices. Gauss-Legendre
 // with points^2 points in each of the 240 cells, collapsed in the vertex or face centre, where a basis may depend on
 // the side one comes from.
 Quadrature icosahedral_quadrature(int points);

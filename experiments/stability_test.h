@@ -1,0 +1,60 @@
+// What the tests of stability share: the basis that they test, and what they find.
+#pragma once
+
+#include <array>
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/light_fit.h"
+#include "experiments/tricky_inputs.h"
+#include "lighting/irradiance_module.h"
+
+namespace twinshade {
+
+enum class Verdict { none, ok, poor, fails };
+std::string_view verdict_name(Verdict verdict);
+inline Verdict within(bool good) { return good ? Verdict::ok : Verdict::poor; }
+
+// The worst of one measure, with the input that it was found at.
+struct Finding {
+  std::string test, measure;
+  double value = 0;  // not finite: there is none
+  std::string unit;
+  Verdict verdict = Verdict::none;
+  std::string what;  // of the input, beside light and normal
+  std::optional<glm::dvec3> light{}, normal{}, other_normal{};
+  std::vector<double> coefficients{};  // [i * 3 + channel]
+};
+
+// Directions and coefficients are floats, so that what is found can be tried anywhere.
+struct TestedBasis {
+  TestedBasis(const TechniqueInfo& technique, std::uint64_t seed);
+
+  bool hemisphere() const { return basis.domain == Domain::hemisphere; }
+  // Irradiance [normal * 3 + channel] by the basis' GLSL.
+  std::vector<double> irradiance(Number number, const std::vector<double>& coefficients,
+                                 std::span<const glm::dvec3> normals) const;
+  // About `count` unit normals (floats), evenly over the domain; of the hemisphere its horizon too.
+  std::vector<glm::dvec3> normals(std::size_t count) const;
+  // A direction of the domain, as floats: what is below the horizon of a hemisphere is moved onto it.
+  glm::dvec3 inside(const glm::dvec3& n) const;
+
+  const TechniqueInfo& basis;
+  std::uint64_t seed;
+  LightFit fit;
+  std::vector<TrickyNormal> tricky;
+
+ private:
+  IrradianceModule in_float_, in_double_;
+};
+
+// Tests, one file each. Those that a basis cannot be put to find nothing.
+std::vector<Finding> test_ringing(const TestedBasis& tested);
+std::vector<Finding> test_constant(const TestedBasis& tested);
+std::vector<Finding> test_finite(const TestedBasis& tested);
+std::vector<Finding> test_rounding(const TestedBasis& tested);
+std::vector<Finding> test_jump(const TestedBasis& tested);
+
+}  // namespace twinshade

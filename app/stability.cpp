@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <memory>
 
 #include "app/output.h"
@@ -19,6 +20,7 @@ struct StabilityVerb {
   CommonOptions common;
   StabilityOptions options;
   std::string folder;
+  bool inputs = false;
 
   int run();
 };
@@ -28,6 +30,57 @@ std::string text_of(const Cell& cell) {
   return text ? *text : "";
 }
 
+std::string value_text(const Rows& rows, std::size_t row, int digits) {
+  const double value = rows.number(row, "value");
+  if (!std::isfinite(value)) return "-";
+  return fmt::format("{:.{}g}", std::abs(value) < 1e-8 ? 0.0 : value, digits);
+}
+
+// A row for each method. What is poor has a star, what fails an exclamation mark.
+std::string stability_summary(const Rows& rows) {
+  struct Column {
+    const char *heading, *test, *measure;
+  };
+  constexpr Column kColumns[] = {{"ringing", "ringing", "least"},
+                                 {"peak", "ringing", "greatest"},
+                                 {"constant", "constant", "least"},
+                                 {"to", "constant", "greatest"},
+                                 {"NaN", "finite", "inside"},
+                                 {"rounding", "rounding", "largest"},
+                                 {"jump", "jump", "value"},
+                                 {"slope", "jump", "slope"},
+                                 {"half", "storage", "half"},
+                                 {"8 bits", "storage", "unorm8"},
+                                 {"blend", "light", "blend"},
+                                 {"change", "light", "change"},
+                                 {"condition", "conditioning", "condition"},
+                                 {"reading", "reading", "largest"}};
+  std::vector<Column> columns;
+  for (const Column& column : kColumns)
+    for (std::size_t row = 0; row < rows.size(); ++row)
+      if (text_of(rows.at(row, "test")) == column.test && text_of(rows.at(row, "measure")) == column.measure) {
+        columns.push_back(column);
+        break;
+      }
+  Table table;
+  table.column("method");
+  for (const Column& column : columns) table.column(column.heading, Table::Align::right);
+  for (std::size_t row = 0; row < rows.size();) {
+    const std::string method = text_of(rows.at(row, "method"));
+    std::vector<std::string> cells(columns.size() + 1);
+    cells[0] = method;
+    for (; row < rows.size() && text_of(rows.at(row, "method")) == method; ++row)
+      for (std::size_t c = 0; c < columns.size(); ++c) {
+        if (text_of(rows.at(row, "test")) != columns[c].test || text_of(rows.at(row, "measure")) != columns[c].measure)
+          continue;
+        const std::string verdict = text_of(rows.at(row, "verdict"));
+        cells[c + 1] = value_text(rows, row, 3) + (verdict == "poor" ? "*" : verdict == "fails" ? "!" : "");
+      }
+    table.row(std::move(cells));
+  }
+  return table.text();
+}
+
 // Without the columns that are for machines.
 std::string stability_table(const Rows& rows) {
   Table table;
@@ -35,10 +88,9 @@ std::string stability_table(const Rows& rows) {
   table.column("value", Table::Align::right);
   for (const char* heading : {"unit", "verdict", "input"}) table.column(heading);
   for (std::size_t row = 0; row < rows.size(); ++row) {
-    const double value = rows.number(row, "value");
     table.row({text_of(rows.at(row, "method")), text_of(rows.at(row, "test")), text_of(rows.at(row, "measure")),
-               std::isfinite(value) ? fmt::format("{:.4g}", value) : "-", text_of(rows.at(row, "unit")),
-               text_of(rows.at(row, "verdict")), text_of(rows.at(row, "input"))});
+               value_text(rows, row, 4), text_of(rows.at(row, "unit")), text_of(rows.at(row, "verdict")),
+               text_of(rows.at(row, "input"))});
   }
   return table.text();
 }
@@ -58,7 +110,11 @@ int StabilityVerb::run() {
   options.progress = [&](const std::string& line) { output.progress(line); };
   const ExperimentResult result = run_stability(options);
 
-  output.text(stability_table(result.rows));
+  const bool long_table = inputs || !options.methods.empty();
+  output.text(long_table ? stability_table(result.rows) : stability_summary(result.rows));
+  if (!long_table)
+    output.note(
+        "*: poor, !: fails; --inputs lists what shows it, and all measures; docs/stability.md says what they are");
   for (const std::string& note : result.notes) output.note(note);
   if (!folder.empty()) {
     make_folder(folder);
@@ -77,13 +133,16 @@ int StabilityVerb::run() {
 
 Verb add_stability(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "stability", "where a basis fails, how badly, with the input that shows it: table, CSV, charts");
+      "stability", "where a basis or sphere map fails, how badly, with the input that shows it: table, CSV, charts");
   const auto verb = std::make_shared<StabilityVerb>();
-  command->add_option("technique", verb->options.methods, "bases to test (default: all)")->type_name("TECHNIQUE");
+  command->add_option("technique", verb->options.methods, "bases and sphere maps to test (default: all)")
+      ->type_name("TECHNIQUE");
   std::string tests;
   for (const StabilityTestInfo& test : stability_tests())
     tests += fmt::format("\n  {}: {}", test.name, test.description);
   command->add_option("--test", verb->options.tests, "only these tests:" + tests)->delimiter(',')->type_name("T,...");
+  command->add_flag("--inputs", verb->inputs,
+                    "a line for each measure, with the input that shows it (default where techniques are named)");
   command->add_option("-o,--output", verb->folder, "write stability.csv and charts into this folder")->type_name("DIR");
   add_common_options(*command, verb->common);
   return {command, [verb] { return verb->run(); }};

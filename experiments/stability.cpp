@@ -15,17 +15,24 @@
 namespace twinshade {
 namespace {
 
-struct BasisTest {
+struct StabilityTest {
   StabilityTestInfo info;
-  std::vector<Finding> (*run)(const TestedBasis&);
+  std::vector<Finding> (*basis)(const TestedBasis&);  // null: not of bases
+  std::vector<Finding> (*map)(const TestedMap&);      // null: not of sphere maps
 };
 
-constexpr BasisTest kTests[] = {
-    {{"ringing", "least and greatest irradiance of a unit sun"}, test_ringing},
-    {{"constant", "what constant light comes back as"}, test_constant},
-    {{"finite", "NaN and infinity, inside the method's domain and outside"}, test_finite},
-    {{"rounding", "float against double"}, test_rounding},
-    {{"jump", "differences between neighbouring normals: seams and creases"}, test_jump},
+constexpr StabilityTest kTests[] = {
+    {{"ringing", "least and greatest irradiance of a unit sun"}, test_ringing, nullptr},
+    {{"constant", "what constant light comes back as"}, test_constant, test_map_constant},
+    {{"finite", "NaN and infinity, inside the method's domain and outside"}, test_finite, test_map_finite},
+    {{"rounding", "float against double"}, test_rounding, test_map_rounding},
+    {{"jump", "differences between neighbouring normals: seams and creases"}, test_jump, test_map_jump},
+    {{"storage", "coefficients rounded to half and to 8 bits"}, test_storage, nullptr},
+    {{"light", "blended coefficients and small changes of the light, of methods that are not linear"},
+     test_light,
+     nullptr},
+    {{"conditioning", "condition number of the Gram matrix"}, test_conditioning, nullptr},
+    {{"reading", "how far off sphere maps are that store their texels' directions"}, nullptr, test_map_reading},
 };
 
 std::string hex_components(const glm::dvec3& v) { return fmt::format("{:a} {:a} {:a}", v.x, v.y, v.z); }
@@ -62,45 +69,60 @@ Cell coefficient_cell(const std::vector<double>& coefficients) {
 
 void add_row(Rows& rows, std::string_view method, const Finding& finding) {
   const std::string verdict(verdict_name(finding.verdict));
-  const bool found = !finding.coefficients.empty() || finding.normal;
+  const bool found = !finding.coefficients.empty() || finding.normal || !finding.what.empty();
   rows.add({std::string(method), finding.test, finding.measure, number_cell(finding.value), finding.unit,
             verdict.empty() ? Cell() : Cell(verdict), found ? Cell(input_text(finding)) : Cell(),
             hex_cell(finding.light), hex_cell(finding.normal), hex_cell(finding.other_normal),
             coefficient_cell(finding.coefficients)});
 }
 
-std::vector<const TechniqueInfo*> chosen_methods(const StabilityOptions& options) {
-  std::vector<const TechniqueInfo*> chosen;
+struct Method {
+  std::string_view name;
+  const TechniqueInfo* basis;  // or
+  const SphereMapInfo* map;
+};
+
+bool is_asked_for(const std::vector<std::string>& names, std::string_view name) {
+  return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::vector<Method> chosen_methods(const StabilityOptions& options) {
+  std::vector<Method> all, chosen;
+  for (const TechniqueInfo& technique : techniques())
+    if (technique.is_basis) all.push_back({technique.name, &technique, nullptr});
+  for (const SphereMapInfo& map : sphere_maps()) all.push_back({map.name, nullptr, &map});
   std::vector<std::string> names;
-  for (const TechniqueInfo& technique : techniques())
-    if (technique.is_basis) names.emplace_back(technique.name);
-  for (const std::string& name : options.methods) {
-    const auto same = [&](const TechniqueInfo& technique) { return technique.name == name; };
-    if (std::any_of(techniques().begin(), techniques().end(),
-                    [&](const TechniqueInfo& technique) { return same(technique) && !technique.is_basis; }))
-      throw UserError("technique " + name +
-                      " is no basis: stability tests what bases make of normals and coefficients (list bases)");
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      throw UserError(unknown_name_message("basis", name, names));
+  for (const Method& method : all) {
+    names.emplace_back(method.name);
+    if (is_asked_for(options.methods, method.name)) chosen.push_back(method);
   }
-  for (const TechniqueInfo& technique : techniques())
-    if (technique.is_basis && (options.methods.empty() || std::find(options.methods.begin(), options.methods.end(),
-                                                                    technique.name) != options.methods.end()))
-      chosen.push_back(&technique);
+  for (const std::string& name : options.methods) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    for (const TechniqueInfo& technique : techniques())
+      if (technique.name == name)
+        throw UserError("technique " + name +
+                        " is no basis: stability tests bases and sphere maps (list bases, list maps)");
+    throw UserError(unknown_name_message("basis or sphere map", name, names));
+  }
   return chosen;
 }
 
-std::vector<const BasisTest*> chosen_tests(const StabilityOptions& options) {
+std::vector<const StabilityTest*> chosen_tests(const StabilityOptions& options, const std::vector<Method>& methods) {
   std::vector<std::string> names;
-  for (const BasisTest& test : kTests) names.emplace_back(test.info.name);
+  std::vector<const StabilityTest*> chosen;
+  bool any = false;
+  for (const StabilityTest& test : kTests) {
+    names.emplace_back(test.info.name);
+    if (!is_asked_for(options.tests, test.info.name)) continue;
+    chosen.push_back(&test);
+    for (const Method& method : methods) any = any || (method.basis ? test.basis != nullptr : test.map != nullptr);
+  }
   for (const std::string& name : options.tests)
     if (std::find(names.begin(), names.end(), name) == names.end())
       throw UserError(unknown_name_message("test", name, names));
-  std::vector<const BasisTest*> chosen;
-  for (const BasisTest& test : kTests)
-    if (options.tests.empty() ||
-        std::find(options.tests.begin(), options.tests.end(), test.info.name) != options.tests.end())
-      chosen.push_back(&test);
+  if (!any)
+    throw UserError("test " + options.tests.front() + (methods.front().map ? " is of bases" : " is of sphere maps") +
+                    ": " + std::string(methods.front().name) + " cannot be put to it");
   return chosen;
 }
 
@@ -109,33 +131,40 @@ std::vector<const BasisTest*> chosen_tests(const StabilityOptions& options) {
 std::span<const StabilityTestInfo> stability_tests() {
   static const std::vector<StabilityTestInfo> infos = [] {
     std::vector<StabilityTestInfo> list;
-    for (const BasisTest& test : kTests) list.push_back(test.info);
+    for (const StabilityTest& test : kTests) list.push_back(test.info);
     return list;
   }();
   return infos;
 }
 
 ExperimentResult run_stability(const StabilityOptions& options) {
-  const std::vector<const TechniqueInfo*> bases = chosen_methods(options);
-  const std::vector<const BasisTest*> tests = chosen_tests(options);
-  std::vector<std::vector<Finding>> findings(bases.size());
+  const std::vector<Method> methods = chosen_methods(options);
+  const std::vector<const StabilityTest*> tests = chosen_tests(options, methods);
+  std::vector<std::vector<Finding>> findings(methods.size());
   std::mutex mutex;
-  parallel_for(bases.size(), [&](std::size_t b, int) {
-    const TestedBasis tested(*bases[b], options.seed);
-    for (const BasisTest* test : tests) {
-      {
-        const std::lock_guard lock(mutex);
-        options.progress(fmt::format("{}: {}", bases[b]->name, test->info.name));
+  parallel_for(methods.size(), [&](std::size_t m, int) {
+    const Method& method = methods[m];
+    const auto put_to = [&](const auto& tested, auto StabilityTest::*test) {
+      for (const StabilityTest* one : tests) {
+        if (!(one->*test)) continue;
+        {
+          const std::lock_guard lock(mutex);
+          options.progress(fmt::format("{}: {}", method.name, one->info.name));
+        }
+        for (Finding& finding : (one->*test)(tested)) findings[m].push_back(std::move(finding));
       }
-      for (Finding& finding : test->run(tested)) findings[b].push_back(std::move(finding));
-    }
+    };
+    if (method.basis)
+      put_to(TestedBasis(*method.basis, options.seed), &StabilityTest::basis);
+    else
+      put_to(TestedMap(*method.map), &StabilityTest::map);
   });
   ExperimentResult result{Rows({"method", "test", "measure", "value", "unit", "verdict", "input", "light", "normal",
                                 "other_normal", "coefficients"}),
                           {},
                           {}};
-  for (std::size_t b = 0; b < bases.size(); ++b)
-    for (const Finding& finding : findings[b]) add_row(result.rows, bases[b]->name, finding);
+  for (std::size_t m = 0; m < methods.size(); ++m)
+    for (const Finding& finding : findings[m]) add_row(result.rows, methods[m].name, finding);
   if (options.pictures) result.pictures = stability_charts(result.rows);
   return result;
 }

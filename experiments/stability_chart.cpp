@@ -41,6 +41,19 @@ const std::vector<Chart>& charts() {
        "of the largest irradiance",
        true,
        {{"jump", "value", "jump"}, {"rounding", "largest", "rounding"}}},
+      {"stability-light",
+       "Methods that are not linear in the light",
+       "blend: averaged coefficients against averaged irradiance; change: what 1e-4 of the light does where two suns "
+       "are opposite.",
+       "of the largest irradiance",
+       true,
+       {{"light", "blend", "blend"}, {"light", "change", "change"}}},
+      {"stability-storage",
+       "Stored coefficients",
+       "Largest error of irradiance where coefficients are rounded, over suns and a constant light.",
+       "of the largest irradiance",
+       true,
+       {{"storage", "half", "half"}, {"storage", "unorm8", "8 bits"}}},
   };
   return list;
 }
@@ -67,6 +80,7 @@ std::vector<Picture> stability_charts(const Rows& rows) {
     chart.subtitle = kind.subtitle;
     chart.value.title = kind.axis;
     chart.value.logarithmic = kind.logarithmic;
+    if (kind.logarithmic) chart.value.most_decades = 6;
     chart.dots = true;
     for (const Dots& dots : kind.dots) chart.bars.push_back({std::string(dots.label), {}});
     bool any = false;

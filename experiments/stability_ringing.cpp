@@ -13,7 +13,7 @@ constexpr std::size_t kSuns = 120, kNormals = 500;
 constexpr std::size_t kRefined = 3;                    // of the worst suns
 constexpr double kFirstStep = 0.12, kLastStep = 1e-4;  // radians
 constexpr double kGain = 1e-6;                         // less is no reason for a sun that is harder to name
-constexpr double kMostRinging = 0.01, kMostOvershoot = 1.1;
+constexpr double kMostRinging = 0.05, kMostPeakOff = 0.1;
 
 struct Extreme {
   double value = 0;
@@ -117,7 +117,7 @@ std::vector<Finding> test_ringing(const TestedBasis& tested) {
   };
   const Extreme low = worst(down, least), high = worst(up, greatest);
   add("least", low, low.value >= -kMostRinging);
-  add("greatest", high, high.value <= kMostOvershoot);
+  add("greatest", high, std::abs(high.value - 1) <= kMostPeakOff);
   return findings;
 }
 

@@ -10,6 +10,7 @@ namespace twinshade {
 namespace {
 
 constexpr int kHorizonNormals = 72;
+constexpr double kMostJump = 1e-4, kMostCrease = 2;  // of the largest value
 
 }  // namespace
 
@@ -22,9 +23,25 @@ TestedBasis::TestedBasis(const TechniqueInfo& technique, std::uint64_t random_se
     : basis(technique),
       seed(random_seed),
       fit(technique),
-      tricky(tricky_normals(technique)),
+      tricky(tricky_normals(technique.domain)),
       in_float_(technique, Number::scalar),
       in_double_(technique, Number::float64) {}
+
+std::vector<Finding> seam_findings(const Seams& seams) {
+  Finding jump, crease;
+  jump.test = crease.test = "jump";
+  jump.measure = "value";
+  jump.value = seams.jump;
+  jump.unit = "of the largest";
+  jump.verdict = within(seams.jump <= kMostJump);
+  if (seams.jump > 0) jump.normal = seams.jump_at[0], jump.other_normal = seams.jump_at[1];
+  crease.measure = "slope";
+  crease.value = seams.crease;
+  crease.unit = "of the largest a radian";
+  crease.verdict = within(seams.crease <= kMostCrease);
+  if (seams.crease > 0) crease.normal = seams.crease_at[0], crease.other_normal = seams.crease_at[1];
+  return {jump, crease};
+}
 
 std::vector<double> TestedBasis::irradiance(Number number, const std::vector<double>& coefficients,
                                             std::span<const glm::dvec3> normals) const {

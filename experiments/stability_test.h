@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "experiments/light_fit.h"
+#include "experiments/seams.h"
 #include "experiments/tricky_inputs.h"
 #include "lighting/irradiance_module.h"
+#include "lighting/sphere_map_grid.h"
 
 namespace twinshade {
 
@@ -50,11 +52,36 @@ struct TestedBasis {
   IrradianceModule in_float_, in_double_;
 };
 
-// Tests, one file each. Those that a basis cannot be put to find nothing.
+// A sphere map of its usual width, whose texels store their own directions.
+struct TestedMap {
+  explicit TestedMap(const SphereMapInfo& map);
+
+  // What is read in these directions (floats): the directions themselves, were a map exact.
+  std::vector<glm::dvec3> read(Number number, std::span<const glm::dvec3> normals) const;
+
+  SphereMapGrid grid;
+  std::vector<glm::dvec3> directions;  // of texels
+  std::vector<TrickyNormal> tricky;
+};
+
+// The jump and the crease, in this order, with their normals.
+std::vector<Finding> seam_findings(const Seams& seams);
+
+// Tests, one file each; those of sphere maps are in stability_sphere_maps.cpp. What a basis cannot be put to finds
+// nothing.
 std::vector<Finding> test_ringing(const TestedBasis& tested);
 std::vector<Finding> test_constant(const TestedBasis& tested);
 std::vector<Finding> test_finite(const TestedBasis& tested);
 std::vector<Finding> test_rounding(const TestedBasis& tested);
 std::vector<Finding> test_jump(const TestedBasis& tested);
+std::vector<Finding> test_storage(const TestedBasis& tested);
+std::vector<Finding> test_light(const TestedBasis& tested);
+std::vector<Finding> test_conditioning(const TestedBasis& tested);
+
+std::vector<Finding> test_map_constant(const TestedMap& tested);
+std::vector<Finding> test_map_finite(const TestedMap& tested);
+std::vector<Finding> test_map_rounding(const TestedMap& tested);
+std::vector<Finding> test_map_jump(const TestedMap& tested);
+std::vector<Finding> test_map_reading(const TestedMap& tested);
 
 }  // namespace twinshade

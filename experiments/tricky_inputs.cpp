@@ -115,8 +115,8 @@ double largest_of(const std::vector<double>& values) {
 
 }  // namespace
 
-std::vector<TrickyNormal> tricky_normals(const TechniqueInfo& basis) {
-  const bool hemisphere = basis.domain == Domain::hemisphere;
+std::vector<TrickyNormal> tricky_normals(Domain domain) {
+  const bool hemisphere = domain == Domain::hemisphere;
   Normals normals(hemisphere);
   add_octants(normals);
   add_icosahedron(normals);

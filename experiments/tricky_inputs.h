@@ -24,7 +24,7 @@ struct TrickyNormal {
 // horizon and the poles with what is hardly apart from them; each also one float step aside along each axis. Outside:
 // the zero vector, below the horizon, other lengths, the
 // mildest first. NaN is not among them: the host counts it as zero.
-std::vector<TrickyNormal> tricky_normals(const TechniqueInfo& basis);
+std::vector<TrickyNormal> tricky_normals(Domain domain);
 
 // [i * 3 + channel], floats. `inside`: what a texel of half precision can hold.
 struct TrickyCoefficients {

@@ -25,7 +25,7 @@ SphereMapGrid::SphereMapGrid(const SphereMapInfo& map, int width)
                     " is not within 1 to 4096");
 }
 
-std::vector<glm::dvec3> SphereMapGrid::directions() const {
+std::vector<glm::dvec3> SphereMapGrid::directions(Number number) const {
   const std::size_t w = std::size_t(width_), rows = std::size_t(texels());
   std::vector<glm::dvec3> directions(rows);
   std::vector<double> inputs;
@@ -38,7 +38,7 @@ std::vector<glm::dvec3> SphereMapGrid::directions() const {
       inputs[count + i] = double(texel / w % w);
       inputs[2 * count + i] = double(texel / w / w);
     }
-    const std::vector<double> columns = run_module(directions_, Number::float64, inputs, count);
+    const std::vector<double> columns = run_module(directions_, number, inputs, count);
     for (std::size_t i = 0; i < count; ++i)
       directions[first + i] = {columns[i], columns[count + i], columns[2 * count + i]};
   }

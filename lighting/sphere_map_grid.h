@@ -28,10 +28,10 @@ class SphereMapGrid {
   int width() const { return width_; }
   int texels() const { return map_.texels(width_); }
 
-  // Unit directions of all texels.
-  std::vector<glm::dvec3> directions() const;
+  // Unit directions of all texels. number: float64, or scalar for what the shader itself computes in float.
+  std::vector<glm::dvec3> directions(Number number = Number::float64) const;
 
-  // What each of the unit directions reads. number: float64, or scalar for what the shader itself computes in float.
+  // What each of the unit directions reads. number: as for directions.
   std::vector<SphereMapTaps> taps(std::span<const glm::dvec3> directions, Number number = Number::float64) const;
 
   // Texels less those that look where another one does, as both sides of a fold do.

@@ -1,0 +1,64 @@
+// The verb stability: table, JSON, CSV, charts, exit codes.
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "run_twinshade.h"
+
+namespace twinshade {
+
+TEST_CASE("stability gives its findings as table, JSON, CSV and charts") {
+  const Folder folder;
+  const Run run = run_twinshade({"stability", "sh2", "zh3", "--test", "ringing,rounding,storage", "-o", folder / "out",
+                                 "--json", folder / "out.json"});
+  REQUIRE_MESSAGE(run.code == 0, run.err);
+  CHECK(run.out.find("-0.25  of the peak     poor     sun (0.000, 0.000, 1.000); normal (0.000, 0.000, -1.000)") !=
+        std::string::npos);
+  std::ifstream file(folder / "out.json");
+  const nlohmann::json json = nlohmann::json::parse(file);
+  CHECK(json["fails"] == false);
+  REQUIRE(json["rows"].size() == 10);
+  const auto& row = json["rows"][0];
+  CHECK(row["method"] == "sh2");
+  CHECK(row["measure"] == "least");
+  CHECK(double(row["value"]) == doctest::Approx(-0.25).epsilon(1e-5));
+  CHECK(row["light"] == "0x0p+0 0x0p+0 0x1p+0");
+  CHECK(row["other_normal"].is_null());
+  std::istringstream coefficients(std::string(row["coefficients"]));
+  std::string word;
+  int count = 0;
+  while (coefficients >> word) ++count;
+  CHECK(count == 12);
+  CHECK(folder.names().size() == 2);
+  for (const char* name : {"stability.csv", "stability-ringing.svg", "stability-ringing.png",
+                           "stability-smoothness.png", "stability-storage.png"})
+    CHECK_MESSAGE(std::filesystem::exists(folder / ("out/" + std::string(name))), name);
+  CHECK_FALSE(std::filesystem::exists(folder / "out/stability-constant.png"));
+}
+
+TEST_CASE("without a technique, a line for each") {
+  const Run run = run_twinshade({"stability", "--test", "conditioning"});
+  REQUIRE_MESSAGE(run.code == 0, run.err);
+  CHECK(run.out.find("condition") != std::string::npos);
+  CHECK(run.out.find("ad_flat") != std::string::npos);
+  CHECK(run.out.find("363") != std::string::npos);
+  CHECK(run.err.find("--inputs") != std::string::npos);
+  const Run inputs = run_twinshade({"stability", "--test", "conditioning", "--inputs", "--quiet"});
+  CHECK(inputs.out.find("largest by smallest") != std::string::npos);
+  CHECK(inputs.err.empty());
+}
+
+TEST_CASE("stability refuses what it cannot test") {
+  const auto refused = [](const std::vector<std::string>& arguments, const char* reason) {
+    const Run run = run_twinshade(arguments);
+    CHECK(run.code == 2);
+    CHECK_MESSAGE(run.err.find(reason) != std::string::npos, run.err);
+  };
+  refused({"stability", "sh33"}, "sh3");
+  refused({"stability", "unc3"}, "is no basis");
+  refused({"stability", "sh3", "--test", "ringin"}, "ringing");
+  refused({"stability", "sh3", "-o", "/proc/none"}, "/proc/none");
+}
+
+}  // namespace twinshade

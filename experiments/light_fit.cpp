@@ -52,17 +52,19 @@ SmallLight unit_sun(const glm::dvec3& direction) {
   return {fmt::format("sun ({:.3f}, {:.3f}, {:.3f})", direction.x, direction.y, direction.z), {}, {{direction}}};
 }
 
-LightFit::LightFit(const TechniqueInfo& basis) : basis_(basis) {
-  if (made_from_radiance(basis.projection)) {
-    radiance_.emplace(basis, kMostRadianceCount);
-  } else if (basis.projection != Projection::value_at_normal) {
-    points_ = basis.domain == Domain::hemisphere ? hemisphere_quadrature(kHemisphereRings)
-                                                 : icosahedral_quadrature(kCellPoints);
-    samples_.emplace(basis, points_.directions, points_.weights);
+void LightFit::prepare() const {
+  if (radiance_ || samples_) return;
+  if (made_from_radiance(basis_.projection)) {
+    radiance_.emplace(basis_, kMostRadianceCount);
+  } else if (basis_.projection != Projection::value_at_normal) {
+    points_ = basis_.domain == Domain::hemisphere ? hemisphere_quadrature(kHemisphereRings)
+                                                  : icosahedral_quadrature(kCellPoints);
+    samples_.emplace(basis_, points_.directions, points_.weights);
   }
 }
 
 std::vector<double> LightFit::coefficients(const SmallLight& light) const {
+  prepare();
   std::vector<double> found(std::size_t(basis_.count) * 3);
   if (radiance_) {
     radiance_->project(light.radiance().data(), found.data());

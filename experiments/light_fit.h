@@ -2,7 +2,6 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,20 +29,23 @@ struct SmallLight {
 // A sun facing which irradiance is 1, named after its direction.
 SmallLight unit_sun(const glm::dvec3& direction);
 
+// For one thread at a time: what fits is made when first asked for.
 class LightFit {
  public:
-  // UserError where `basis` is no basis.
-  explicit LightFit(const TechniqueInfo& basis);
+  // `basis` must be a basis, and outlive this.
+  explicit LightFit(const TechniqueInfo& basis) : basis_(basis) {}
 
   // Coefficients [i * 3 + channel], each rounded to float as it would be stored, by the registry's projection: fitted
   // to the irradiance, or from the radiance in closed form, all of it. (Bakes cut radiance to l <= 4 first.)
   std::vector<double> coefficients(const SmallLight& light) const;
 
  private:
+  void prepare() const;
+
   const TechniqueInfo& basis_;
-  Quadrature points_;
-  std::optional<SampleProjector> samples_;
-  std::optional<Projector> radiance_;  // neither: the irradiance at (0, 0, 1)
+  mutable Quadrature points_;
+  mutable std::optional<SampleProjector> samples_;
+  mutable std::optional<Projector> radiance_;  // neither: the irradiance at (0, 0, 1)
 };
 
 }  // namespace twinshade

@@ -60,7 +60,8 @@ const std::vector<Chart>& charts() {
 
 // In the unit of the chart.
 double charted(const Rows& rows, std::size_t row) {
-  const double value = rows.number(row, "value");
+  double value = rows.number(row, "value");
+  if (std::abs(value) < 1e-12) value = 0;  // rounding below zero would be left of an axis that begins there
   return rows.at(row, "unit") == Cell(std::string("2^-24")) ? value * 0x1p-24 : value;
 }
 

@@ -25,7 +25,7 @@ TEST_CASE("stability gives its findings as table, JSON, CSV and charts") {
   CHECK(double(row["value"]) == doctest::Approx(-0.25).epsilon(1e-5));
   CHECK(row["light"] == "0x0p+0 0x0p+0 0x1p+0");
   CHECK(row["other_normal"].is_null());
-  std::istringstream coefficients(std::string(row["coefficients"]));
+  std::istringstream coefficients(row["coefficients"].get<std::string>());
   std::string word;
   int count = 0;
   while (coefficients >> word) ++count;

@@ -183,11 +183,21 @@ TEST_CASE("rounding to half and to 8 bits is not amplified much by harmonics") {
 TEST_CASE("rows do not depend on the number of threads") {
   const auto csv = [](int threads) {
     set_thread_count(threads);
-    return measured({"sh2", "l1_nonlinear", "octahedral", "h4"}, {}).csv();
+    return measured({"sh2", "sh3_min", "octahedral", "h4"}, {}).csv();
   };
   const std::string one = csv(1);
   CHECK(csv(2) == one);
   set_thread_count(0);
+}
+
+TEST_CASE("what fails is told from what is poor") {
+  Rows rows({"verdict"});
+  CHECK_FALSE(stability_fails(rows));
+  rows.add({Cell()});
+  rows.add({Cell(std::string("poor"))});
+  CHECK_FALSE(stability_fails(rows));
+  rows.add({Cell(std::string("fails"))});
+  CHECK(stability_fails(rows));
 }
 
 TEST_CASE("stability names what is wrong with what is asked for") {

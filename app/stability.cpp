@@ -20,7 +20,7 @@ struct StabilityVerb {
   CommonOptions common;
   StabilityOptions options;
   std::string folder;
-  bool inputs = false;
+  bool long_table = false;
 
   int run();
 };
@@ -97,6 +97,7 @@ std::string stability_table(const Rows& rows) {
 
 int StabilityVerb::run() {
   apply(common);
+  if (options.methods == std::vector<std::string>{"all"}) options.methods.clear();
   Output output(common, {}, folder);
   if (!folder.empty()) {
     std::vector<std::string> names{"stability.csv"};
@@ -110,11 +111,11 @@ int StabilityVerb::run() {
   options.progress = [&](const std::string& line) { output.progress(line); };
   const ExperimentResult result = run_stability(options);
 
-  const bool long_table = inputs || !options.methods.empty();
-  output.text(long_table ? stability_table(result.rows) : stability_summary(result.rows));
-  if (!long_table)
+  const bool all_inputs = long_table || !options.methods.empty();
+  output.text(all_inputs ? stability_table(result.rows) : stability_summary(result.rows));
+  if (!all_inputs)
     output.note(
-        "*: poor, !: fails; --inputs lists what shows it, and all measures; docs/stability.md says what they are");
+        "*: poor, !: fails; --long lists what shows it, and all measures; docs/stability.md says what they are");
   for (const std::string& note : result.notes) output.note(note);
   if (!folder.empty()) {
     make_folder(folder);
@@ -136,12 +137,19 @@ Verb add_stability(CLI::App& app) {
       "stability", "where a basis or sphere map fails, how badly, with the input that shows it: table, CSV, charts");
   const auto verb = std::make_shared<StabilityVerb>();
   command->add_option("technique", verb->options.methods, "bases and sphere maps to test (default: all)")
-      ->type_name("TECHNIQUE");
+      ->delimiter(',')
+      ->type_name("TECHNIQUE,...");
   std::string tests;
   for (const StabilityTestInfo& test : stability_tests())
     tests += fmt::format("\n  {}: {}", test.name, test.description);
   command->add_option("--test", verb->options.tests, "only these tests:" + tests)->delimiter(',')->type_name("T,...");
-  command->add_flag("--inputs", verb->inputs,
+  command
+      ->add_option(
+          "-I,--include", verb->options.include_folder,
+          "test GLSL of one's own: DIR/basis/h4.glsl in place of the built-in h4.glsl, with the coefficients of h4")
+      ->each(require_include_folder)
+      ->type_name("DIR");
+  command->add_flag("--long", verb->long_table,
                     "a line for each measure, with the input that shows it (default where techniques are named)");
   command->add_option("-o,--output", verb->folder, "write stability.csv and charts into this folder")->type_name("DIR");
   add_common_options(*command, verb->common);

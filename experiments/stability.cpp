@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <mutex>
 
 #include "base/error.h"
@@ -19,6 +20,7 @@ struct StabilityTest {
   StabilityTestInfo info;
   std::vector<Finding> (*basis)(const TestedBasis&);  // null: not of bases
   std::vector<Finding> (*map)(const TestedMap&);      // null: not of sphere maps
+  std::string_view none = {};                         // why it finds nothing of some bases
 };
 
 constexpr StabilityTest kTests[] = {
@@ -30,8 +32,12 @@ constexpr StabilityTest kTests[] = {
     {{"storage", "coefficients rounded to half and to 8 bits"}, test_storage, nullptr},
     {{"light", "blended coefficients and small changes of the light, of methods that are not linear"},
      test_light,
-     nullptr},
-    {{"conditioning", "condition number of the Gram matrix"}, test_conditioning, nullptr},
+     nullptr,
+     "all of it is linear in the light"},
+    {{"conditioning", "condition number of the Gram matrix"},
+     test_conditioning,
+     nullptr,
+     "it is not linear, so it has no Gram matrix"},
     {{"reading", "how far off sphere maps are that store their texels' directions"}, nullptr, test_map_reading},
 };
 
@@ -86,6 +92,17 @@ bool is_asked_for(const std::vector<std::string>& names, std::string_view name) 
   return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
 }
 
+std::filesystem::path own_file(const StabilityOptions& options, const Method& method) {
+  return std::filesystem::path(options.include_folder) / "basis" / method.basis->file;
+}
+
+// Whether one's own folder has the basis' file; without a folder all are as good as there.
+bool has_file(const StabilityOptions& options, const Method& method) {
+  if (options.include_folder.empty()) return true;
+  std::error_code code;
+  return method.basis && std::filesystem::is_regular_file(own_file(options, method), code);
+}
+
 std::vector<Method> chosen_methods(const StabilityOptions& options) {
   std::vector<Method> all, chosen;
   for (const TechniqueInfo& technique : techniques())
@@ -94,7 +111,14 @@ std::vector<Method> chosen_methods(const StabilityOptions& options) {
   std::vector<std::string> names;
   for (const Method& method : all) {
     names.emplace_back(method.name);
-    if (is_asked_for(options.methods, method.name)) chosen.push_back(method);
+    if (!is_asked_for(options.methods, method.name)) continue;
+    if (has_file(options, method))
+      chosen.push_back(method);
+    else if (!options.methods.empty())
+      throw UserError(
+          options.include_folder + ": has no " +
+          (method.basis ? "basis/" + std::string(method.basis->file) + ", which is the file of " : "file of ") +
+          std::string(method.name));
   }
   for (const std::string& name : options.methods) {
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
@@ -104,6 +128,9 @@ std::vector<Method> chosen_methods(const StabilityOptions& options) {
                         " is no basis: stability tests bases and sphere maps (list bases, list maps)");
     throw UserError(unknown_name_message("basis or sphere map", name, names));
   }
+  if (chosen.empty())
+    throw UserError(options.include_folder +
+                    ": has no file of a basis: put it under basis/, by the name of the built-in one (basis/h4.glsl)");
   return chosen;
 }
 
@@ -141,6 +168,8 @@ ExperimentResult run_stability(const StabilityOptions& options) {
   const std::vector<Method> methods = chosen_methods(options);
   const std::vector<const StabilityTest*> tests = chosen_tests(options, methods);
   std::vector<std::vector<Finding>> findings(methods.size());
+  std::vector<std::string> folders;
+  if (!options.include_folder.empty()) folders.push_back(options.include_folder);
   std::mutex mutex;
   parallel_for(methods.size(), [&](std::size_t m, int) {
     const Method& method = methods[m];
@@ -155,7 +184,7 @@ ExperimentResult run_stability(const StabilityOptions& options) {
       }
     };
     if (method.basis)
-      put_to(TestedBasis(*method.basis, options.seed), &StabilityTest::basis);
+      put_to(TestedBasis(*method.basis, options.seed, folders), &StabilityTest::basis);
     else
       put_to(TestedMap(*method.map), &StabilityTest::map);
   });
@@ -165,6 +194,13 @@ ExperimentResult run_stability(const StabilityOptions& options) {
                           {}};
   for (std::size_t m = 0; m < methods.size(); ++m)
     for (const Finding& finding : findings[m]) add_row(result.rows, methods[m].name, finding);
+  if (!options.methods.empty())
+    for (std::size_t m = 0; m < methods.size(); ++m)
+      for (const StabilityTest* test : tests)
+        if (!test->none.empty() && methods[m].basis &&
+            std::none_of(findings[m].begin(), findings[m].end(),
+                         [&](const Finding& finding) { return finding.test == test->info.name; }))
+          result.notes.push_back(fmt::format("{} has no row for {}: {}", methods[m].name, test->info.name, test->none));
   if (options.pictures) result.pictures = stability_charts(result.rows);
   return result;
 }

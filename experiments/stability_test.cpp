@@ -19,13 +19,14 @@ std::string_view verdict_name(Verdict verdict) {
   return kNames[int(verdict)];
 }
 
-TestedBasis::TestedBasis(const TechniqueInfo& technique, std::uint64_t random_seed)
+TestedBasis::TestedBasis(const TechniqueInfo& technique, std::uint64_t random_seed,
+                         const std::vector<std::string>& include_folders)
     : basis(technique),
       seed(random_seed),
       fit(technique),
       tricky(tricky_normals(technique.domain)),
-      in_float_(technique, Number::scalar),
-      in_double_(technique, Number::float64) {}
+      in_float_(technique, Number::scalar, include_folders),
+      in_double_(technique, Number::float64, include_folders) {}
 
 std::vector<Finding> seam_findings(const Seams& seams) {
   Finding jump, crease;

@@ -32,7 +32,9 @@ struct Finding {
 
 // Directions and coefficients are floats, so that what is found can be tried anywhere.
 struct TestedBasis {
-  TestedBasis(const TechniqueInfo& technique, std::uint64_t seed);
+  // include_folders: searched for the basis' GLSL before the built-in files; coefficients are those of the built-in
+  // one.
+  TestedBasis(const TechniqueInfo& technique, std::uint64_t seed, const std::vector<std::string>& include_folders = {});
 
   bool hemisphere() const { return basis.domain == Domain::hemisphere; }
   // Irradiance [normal * 3 + channel] by the basis' GLSL.

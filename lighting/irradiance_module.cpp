@@ -7,8 +7,9 @@
 
 namespace twinshade {
 
-IrradianceModule::IrradianceModule(const TechniqueInfo& basis, Number number)
-    : module_(&load_module(basis_irradiance_source(basis), number)),
+IrradianceModule::IrradianceModule(const TechniqueInfo& basis, Number number,
+                                   const std::vector<std::string>& include_folders)
+    : module_(&load_module(basis_irradiance_source(basis, include_folders), number)),
       number_(number),
       count_(basis.count),
       components_(module_->input_components) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "cpu_shaders/runtime/shader_abi.h"
@@ -11,8 +12,8 @@ namespace twinshade {
 
 class IrradianceModule {
  public:
-  // UserError where `basis` is no basis.
-  IrradianceModule(const TechniqueInfo& basis, Number number);
+  // UserError where `basis` is no basis. include_folders: as for basis_irradiance_source.
+  IrradianceModule(const TechniqueInfo& basis, Number number, const std::vector<std::string>& include_folders = {});
 
   // direction(row) gives something with .x .y .z; coefficient(row, i, c) channel c of coefficient i. Returns [row * 3 +
   // c].

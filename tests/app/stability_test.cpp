@@ -43,10 +43,44 @@ TEST_CASE("without a technique, a line for each") {
   CHECK(run.out.find("condition") != std::string::npos);
   CHECK(run.out.find("ad_flat") != std::string::npos);
   CHECK(run.out.find("363") != std::string::npos);
-  CHECK(run.err.find("--inputs") != std::string::npos);
-  const Run inputs = run_twinshade({"stability", "--test", "conditioning", "--inputs", "--quiet"});
+  CHECK(run.err.find("--long") != std::string::npos);
+  const Run inputs = run_twinshade({"stability", "--test", "conditioning", "--long", "--quiet"});
   CHECK(inputs.out.find("largest by smallest") != std::string::npos);
   CHECK(inputs.err.empty());
+}
+
+TEST_CASE("a basis of one's own that divides by zero and has a seam fails, and both inputs are shown") {
+  // The Ambient Cube as one might write it: a direction in the plane that is 0/0 at the poles, and sides told apart too
+  // late
+  constexpr const char* kBroken = R"(const int BASIS_COUNT = 6;
+vec3 basis_irradiance(vec3 n) {
+  vec2 flat_part = n.xy / sqrt(n.x * n.x + n.y * n.y) * sqrt(1.0 - n.z * n.z);
+  return (n.x < 0.3 ? COEF(3) : COEF(0)) * flat_part.x * flat_part.x +
+         (n.y < 0.0 ? COEF(4) : COEF(1)) * flat_part.y * flat_part.y + (n.z < 0.0 ? COEF(5) : COEF(2)) * n.z * n.z;
+}
+)";
+  const Folder folder;
+  std::filesystem::create_directory(folder / "basis");
+  folder.file("basis/ambient_cube.glsl", kBroken);
+  const Run run = run_twinshade({"stability", "-I", folder / "", "--test", "finite,jump", "--json", "-"});
+  CHECK_MESSAGE(run.code == 1, run.err);
+  const nlohmann::json json = run.json(), rows = json["rows"];
+  CHECK(json["fails"] == true);
+  REQUIRE(rows.size() == 5);
+  CHECK(rows[0]["method"] == "ambient_cube");
+  CHECK(rows[0]["verdict"] == "fails");
+  CHECK(rows[0]["normal"].get<std::string>().find("0x0p+0") != std::string::npos);
+  CHECK(rows[3]["measure"] == "value");
+  CHECK(rows[3]["verdict"] == "poor");
+  CHECK(rows[3]["value"] > 0.01);
+  CHECK(rows[3]["normal"].get<std::string>().find("0x1.33333") == 0);  // 0.3
+
+  CHECK(run_twinshade({"stability", "h4", "-I", folder / ""}).err.find("has no basis/h4.glsl") != std::string::npos);
+  CHECK(run_twinshade({"stability", "cube", "-I", folder / ""}).code == 2);
+  folder.file("basis/ambient_cube.glsl", "const int BASIS_COUNT = 6;\n");
+  const Run wrong = run_twinshade({"stability", "-I", folder / ""});
+  CHECK(wrong.code == 2);
+  CHECK_MESSAGE(wrong.err.find("basis_irradiance") != std::string::npos, wrong.err);
 }
 
 TEST_CASE("stability refuses what it cannot test") {
@@ -59,6 +93,8 @@ TEST_CASE("stability refuses what it cannot test") {
   refused({"stability", "unc3"}, "is no basis");
   refused({"stability", "sh3", "--test", "ringin"}, "ringing");
   refused({"stability", "sh3", "-o", "/proc/none"}, "/proc/none");
+  refused({"stability", "-I", "/proc/none"}, "/proc/none");
+  refused({"stability", "-I", "/proc/self"}, "has no file of a basis");
 }
 
 }  // namespace twinshade

@@ -33,6 +33,7 @@ std::string text_of(const Cell& cell) {
 std::string value_text(const Rows& rows, std::size_t row, int digits) {
   const double value = rows.number(row, "value");
   if (!std::isfinite(value)) return "-";
+  if (value == std::floor(value) && std::abs(value) < 1e9) return fmt::format("{:.0f}", value);  // counts among them
   return fmt::format("{:.{}g}", std::abs(value) < 1e-8 ? 0.0 : value, digits);
 }
 

@@ -20,22 +20,20 @@ std::vector<Finding> test_constant(const TestedBasis& tested) {
   for (const glm::dvec3& n : tested.normals(kConstantNormals)) normals.push_back(n);
   const std::vector<double> values = tested.irradiance(Number::float64, coefficients, normals);
   std::size_t low = 0, high = 0;
-  for (std::size_t i = 1; i < normals.size(); ++i) {
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    if (!std::isfinite(values[i * 3])) {  // worse than any value
+      low = high = i;
+      break;
+    }
     if (values[i * 3] < values[low * 3] - kTie) low = i;
     if (values[i * 3] > values[high * 3] + kTie) high = i;
   }
   std::vector<Finding> findings;
-  for (const auto& [measure, at] : {std::pair{"least", low}, std::pair{"greatest", high}})
-    findings.push_back({"constant",
-                        measure,
-                        values[at * 3],
-                        "of 1",
-                        within(std::abs(values[at * 3] - 1) <= kMostOff),
-                        light.name,
-                        {},
-                        normals[at],
-                        {},
-                        coefficients});
+  for (const auto& [measure, at] : {std::pair{"least", low}, std::pair{"greatest", high}}) {
+    const double value = values[at * 3];
+    const Verdict verdict = judged(value, std::abs(value - 1) <= kMostOff);
+    findings.push_back({"constant", measure, value, "of 1", verdict, light.name, {}, normals[at], {}, coefficients});
+  }
   return findings;
 }
 

@@ -108,7 +108,7 @@ std::vector<Finding> test_ringing(const TestedBasis& tested) {
                         measure,
                         extreme.value,
                         "of the peak",
-                        within(good),
+                        judged(extreme.value, good),
                         "",
                         extreme.sun,
                         extreme.normal,

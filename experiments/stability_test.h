@@ -1,7 +1,7 @@
 // What the tests of stability share: the basis that they test, and what they find.
 #pragma once
 
-#include <array>
+#include <cmath>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -18,6 +18,10 @@ namespace twinshade {
 enum class Verdict { none, ok, poor, fails };
 std::string_view verdict_name(Verdict verdict);
 inline Verdict within(bool good) { return good ? Verdict::ok : Verdict::poor; }
+// The same of an irradiance inside the method's domain, where NaN is a failure.
+inline Verdict judged(double irradiance, bool good) {
+  return std::isfinite(irradiance) ? within(good) : Verdict::fails;
+}
 
 // The worst of one measure, with the input that it was found at.
 struct Finding {

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cmath>
+#include <filesystem>
 #include <memory>
 
 #include "app/output.h"
@@ -23,14 +24,26 @@ struct StabilityVerb {
   bool long_table = false;
 
   int run();
+  std::vector<std::string> own_files() const;
 };
+
+// What -I has: none of it is to be written over.
+std::vector<std::string> StabilityVerb::own_files() const {
+  std::vector<std::string> files;
+  std::error_code code;
+  if (!options.include_folder.empty())
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::filesystem::path(options.include_folder) / "basis", code))
+      files.push_back(entry.path().string());
+  return files;
+}
 
 std::string text_of(const Cell& cell) {
   const auto* text = std::get_if<std::string>(&cell);
   return text ? *text : "";
 }
 
-std::string value_text(const Rows& rows, std::size_t row, int digits) {
+std::string figure_text(const Rows& rows, std::size_t row, int digits) {
   const double value = rows.number(row, "value");
   if (!std::isfinite(value)) return "-";
   if (value == std::floor(value) && std::abs(value) < 1e9) return fmt::format("{:.0f}", value);  // counts among them
@@ -75,7 +88,7 @@ std::string stability_summary(const Rows& rows) {
         if (text_of(rows.at(row, "test")) != columns[c].test || text_of(rows.at(row, "measure")) != columns[c].measure)
           continue;
         const std::string verdict = text_of(rows.at(row, "verdict"));
-        cells[c + 1] = value_text(rows, row, 3) + (verdict == "poor" ? "*" : verdict == "fails" ? "!" : "");
+        cells[c + 1] = figure_text(rows, row, 3) + (verdict == "poor" ? "*" : verdict == "fails" ? "!" : "");
       }
     table.row(std::move(cells));
   }
@@ -90,7 +103,7 @@ std::string stability_table(const Rows& rows) {
   for (const char* heading : {"unit", "verdict", "input"}) table.column(heading);
   for (std::size_t row = 0; row < rows.size(); ++row) {
     table.row({text_of(rows.at(row, "method")), text_of(rows.at(row, "test")), text_of(rows.at(row, "measure")),
-               value_text(rows, row, 4), text_of(rows.at(row, "unit")), text_of(rows.at(row, "verdict")),
+               figure_text(rows, row, 4), text_of(rows.at(row, "unit")), text_of(rows.at(row, "verdict")),
                text_of(rows.at(row, "input"))});
   }
   return table.text();
@@ -107,6 +120,7 @@ int StabilityVerb::run() {
     output.claim(names);
     require_writable_folder(folder);
   }
+  output.require_not_read(own_files());
   options.seed = common.seed;
   options.pictures = !folder.empty();
   options.progress = [&](const std::string& line) { output.progress(line); };

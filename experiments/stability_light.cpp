@@ -14,7 +14,7 @@ namespace twinshade {
 namespace {
 
 constexpr std::size_t kBlendedSuns = 16, kOpposedSuns = 8, kBlendNormals = 300;
-constexpr double kFaint = 1e-4, kMostBlend = 0.05, kMostChange = 0.01;
+constexpr double kFaintSun = 1e-4, kMostBlend = 0.05, kMostChange = 0.01;
 
 bool is_linear(const TechniqueInfo& basis) {
   if (basis.projection == Projection::luma_chroma) return true;
@@ -22,9 +22,9 @@ bool is_linear(const TechniqueInfo& basis) {
 }
 
 // Keeps what is worse.
-void compare(const std::vector<double>& values, const std::vector<double>& others, double peak,
-             const std::vector<glm::dvec3>& normals, const std::string& what, const std::vector<double>& coefficients,
-             Finding& worst) {
+void keep_worse(const std::vector<double>& values, const std::vector<double>& others, double peak,
+                const std::vector<glm::dvec3>& normals, const std::string& what,
+                const std::vector<double>& coefficients, Finding& worst) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double error = std::abs(values[i] - others[i]) / peak;
     if (!(error > worst.value)) continue;
@@ -35,7 +35,7 @@ void compare(const std::vector<double>& values, const std::vector<double>& other
   }
 }
 
-Finding blend(const TestedBasis& tested, const std::vector<glm::dvec3>& normals) {
+Finding blend_finding(const TestedBasis& tested, const std::vector<glm::dvec3>& normals) {
   Finding worst;
   worst.test = "light";
   worst.measure = "blend";
@@ -62,14 +62,14 @@ Finding blend(const TestedBasis& tested, const std::vector<glm::dvec3>& normals)
   for (std::size_t i = 0; i < suns.size(); ++i)
     for (std::size_t k = i + 1; k < suns.size(); ++k) {
       const std::vector<double> mean = average(suns[i].coefficients, suns[k].coefficients);
-      compare(tested.irradiance(Number::float64, mean, normals), average(suns[i].irradiance, suns[k].irradiance), 1,
-              normals, fmt::format("half of {}, half of {}", suns[i].light.name, suns[k].light.name), mean, worst);
+      keep_worse(tested.irradiance(Number::float64, mean, normals), average(suns[i].irradiance, suns[k].irradiance), 1,
+                 normals, fmt::format("half of {}, half of {}", suns[i].light.name, suns[k].light.name), mean, worst);
     }
   worst.verdict = within(worst.value <= kMostBlend);
   return worst;
 }
 
-Finding change(const TestedBasis& tested, const std::vector<glm::dvec3>& normals) {
+Finding change_finding(const TestedBasis& tested, const std::vector<glm::dvec3>& normals) {
   Finding worst;
   worst.test = "light";
   worst.measure = "change";
@@ -77,7 +77,7 @@ Finding change(const TestedBasis& tested, const std::vector<glm::dvec3>& normals
   for (std::size_t i = 0; i < kOpposedSuns; ++i) {
     const glm::dvec3 sun = to_float(lattice_direction(i, 2 * kOpposedSuns));
     const auto with = [&](const glm::dvec3& faint) {
-      return tested.fit.coefficients({"", {}, {{sun}, {-sun}, {faint, glm::dvec3(kFaint)}}});
+      return tested.fit.coefficients({"", {}, {{sun}, {-sun}, {faint, glm::dvec3(kFaintSun)}}});
     };
     const std::vector<double> coefficients = with(sun);
     const std::vector<double> values = tested.irradiance(Number::float64, coefficients, normals);
@@ -85,10 +85,10 @@ Finding change(const TestedBasis& tested, const std::vector<glm::dvec3>& normals
     for (const double value : values) peak = std::max(peak, std::abs(value));
     if (!(peak > 0)) continue;
     for (const glm::dvec3& faint : {-sun, tangents(sun)[0], tangents(sun)[1]})
-      compare(values, tested.irradiance(Number::float64, with(faint), normals), peak, normals,
-              fmt::format("{} and its opposite; 1e-4 more there or at ({:.3f}, {:.3f}, {:.3f})", unit_sun(sun).name,
-                          faint.x, faint.y, faint.z),
-              coefficients, worst);
+      keep_worse(values, tested.irradiance(Number::float64, with(faint), normals), peak, normals,
+                 fmt::format("{} and its opposite; 1e-4 more there or at ({:.3f}, {:.3f}, {:.3f})", unit_sun(sun).name,
+                             faint.x, faint.y, faint.z),
+                 coefficients, worst);
   }
   worst.verdict = within(worst.value <= kMostChange);
   return worst;
@@ -99,7 +99,7 @@ Finding change(const TestedBasis& tested, const std::vector<glm::dvec3>& normals
 std::vector<Finding> test_light(const TestedBasis& tested) {
   if (is_linear(tested.basis)) return {};
   const std::vector<glm::dvec3> normals = tested.normals(kBlendNormals);
-  return {blend(tested, normals), change(tested, normals)};
+  return {blend_finding(tested, normals), change_finding(tested, normals)};
 }
 
 }  // namespace twinshade

@@ -66,7 +66,7 @@ class Search {
 };
 
 // First those that are easy to name: of equals they stay.
-std::vector<glm::dvec3> suns(const TestedBasis& tested) {
+std::vector<glm::dvec3> ringing_suns(const TestedBasis& tested) {
   std::vector<glm::dvec3> list;
   for (const glm::dvec3& sun :
        {glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), unit({1, 1, 0}), unit({1, 1, 1})})
@@ -77,7 +77,7 @@ std::vector<glm::dvec3> suns(const TestedBasis& tested) {
   return list;
 }
 
-Extreme worst(const Search& search, std::vector<Extreme> each) {
+Extreme worst_extreme(const Search& search, std::vector<Extreme> each) {
   std::stable_sort(each.begin(), each.end(),
                    [&](const Extreme& a, const Extreme& b) { return search.better(a.value, b.value, kGain); });
   Extreme found = each.front();
@@ -96,7 +96,7 @@ std::vector<Finding> test_ringing(const TestedBasis& tested) {
     if (tricky.inside && tricky.what == "axis") normals.push_back(tricky.n);
   for (const glm::dvec3& n : tested.normals(kNormals)) normals.push_back(n);
   std::vector<Extreme> least, greatest;
-  for (const glm::dvec3& sun : suns(tested)) {
+  for (const glm::dvec3& sun : ringing_suns(tested)) {
     const std::vector<double> values =
         tested.irradiance(Number::float64, tested.fit.coefficients(unit_sun(sun)), normals);
     least.push_back(down.best(sun, normals, values));
@@ -115,7 +115,7 @@ std::vector<Finding> test_ringing(const TestedBasis& tested) {
                         {},
                         tested.fit.coefficients(unit_sun(extreme.sun))});
   };
-  const Extreme low = worst(down, least), high = worst(up, greatest);
+  const Extreme low = worst_extreme(down, least), high = worst_extreme(up, greatest);
   add("least", low, low.value >= -kMostRinging);
   add("greatest", high, std::abs(high.value - 1) <= kMostPeakOff);
   return findings;

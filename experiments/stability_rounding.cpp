@@ -12,7 +12,7 @@ constexpr std::size_t kRoundedNormals = 12000;
 constexpr double kMostUnits = 64;
 
 // What is shaded with: a constant, suns, a sky.
-std::vector<SmallLight> lights() {
+std::vector<SmallLight> rounding_lights() {
   const glm::dvec3 slanted = unit({2, 3, 6});
   return {{"constant light", glm::dvec3(1), {}},
           unit_sun({0, 0, 1}),
@@ -30,7 +30,7 @@ std::vector<Finding> test_rounding(const TestedBasis& tested) {
   for (const TrickyNormal& tricky : tested.tricky)
     if (tricky.inside) normals.push_back(tricky.n);
   Finding worst{"rounding", "largest", 0, "2^-24", Verdict::ok, "", {}, {}, {}, {}};
-  for (const SmallLight& light : lights()) {
+  for (const SmallLight& light : rounding_lights()) {
     const std::vector<double> coefficients = tested.fit.coefficients(light);
     const std::vector<double> exact = tested.irradiance(Number::float64, coefficients, normals),
                               rounded = tested.irradiance(Number::scalar, coefficients, normals);

@@ -107,7 +107,7 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
   return values;
 }
 
-double largest_of(const std::vector<double>& values) {
+double largest_magnitude(const std::vector<double>& values) {
   double largest = 0;
   for (const double value : values) largest = std::max(largest, std::abs(value));
   return largest;
@@ -141,7 +141,7 @@ std::vector<TrickyCoefficients> tricky_coefficients(const TechniqueInfo& basis, 
     list.push_back({fit.coefficients(light), light.name, true});
 
   const std::vector<double> sun = fit.coefficients({"", {}, {{slanted}}});
-  const double largest = largest_of(sun) > 0 ? largest_of(sun) : 1;
+  const double largest = largest_magnitude(sun) > 0 ? largest_magnitude(sun) : 1;
   list.push_back({scaled(sun, kLargestHalf / largest), "a sun up to the largest half", true});
   list.push_back({scaled(sun, 1e-10), "a sun times 1e-10", true});
   list.push_back({scaled(sun, 1e-20), "a sun times 1e-20", true});

@@ -1,7 +1,9 @@
 #include "lighting/irradiance_module.h"
 
+#include <string>
 #include <string_view>
 
+#include "base/error.h"
 #include "cpu_shaders/load/host_eval.h"
 #include "cpu_shaders/load/load.h"
 
@@ -13,8 +15,14 @@ IrradianceModule::IrradianceModule(const TechniqueInfo& basis, Number number,
       number_(number),
       count_(basis.count),
       components_(module_->input_components) {
+  const auto refuse = [&](const std::string& what) {
+    throw UserError("basis/" + std::string(basis.file) + " reads " + what +
+                    ": a basis has its normal and, through COEF(i), its coefficients, nothing else");
+  };
+  if (module_->resource_count > 0 || module_->uniform_count > 0) refuse("uniforms, buffers or textures");
   for (std::uint32_t i = 0; i < module_->input_count; ++i) {
     const std::string_view name = module_->inputs[i].name;
+    if (name != "direction" && name.rfind("coefficients", 0) != 0) refuse("the input " + std::string(name));
     (name == "direction" ? direction_ : coefficients_) = module_->inputs[i].first_component;
   }
   for (std::uint32_t i = 0; i < module_->output_count; ++i)

@@ -12,7 +12,8 @@ namespace twinshade {
 
 class IrradianceModule {
  public:
-  // UserError where `basis` is no basis. include_folders: as for basis_irradiance_source.
+  // UserError where `basis` is no basis, or its file reads uniforms, textures or inputs of its own. include_folders: as
+  // for basis_irradiance_source.
   IrradianceModule(const TechniqueInfo& basis, Number number, const std::vector<std::string>& include_folders = {});
 
   // direction(row) gives something with .x .y .z; coefficient(row, i, c) channel c of coefficient i. Returns [row * 3 +

@@ -77,10 +77,16 @@ vec3 basis_irradiance(vec3 n) {
 
   CHECK(run_twinshade({"stability", "h4", "-I", folder / ""}).err.find("has no basis/h4.glsl") != std::string::npos);
   CHECK(run_twinshade({"stability", "cube", "-I", folder / ""}).code == 2);
-  folder.file("basis/ambient_cube.glsl", "const int BASIS_COUNT = 6;\n");
-  const Run wrong = run_twinshade({"stability", "-I", folder / ""});
-  CHECK(wrong.code == 2);
-  CHECK_MESSAGE(wrong.err.find("basis_irradiance") != std::string::npos, wrong.err);
+  const auto refused = [&](const std::string& glsl, const char* reason) {
+    folder.file("basis/ambient_cube.glsl", "const int BASIS_COUNT = 6;\n" + glsl);
+    const Run wrong = run_twinshade({"stability", "-I", folder / ""});
+    CHECK(wrong.code == 2);
+    CHECK_MESSAGE(wrong.err.find(reason) != std::string::npos, wrong.err);
+  };
+  refused("", "basis_irradiance");
+  refused("uniform float u;\nvec3 basis_irradiance(vec3 n) { return COEF(0) * u; }\n",
+          "reads uniforms, buffers or textures");
+  refused("in float u;\nvec3 basis_irradiance(vec3 n) { return COEF(0) * u; }\n", "reads the input u");
 }
 
 TEST_CASE("stability refuses what it cannot test") {

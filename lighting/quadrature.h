@@ -29,9 +29,8 @@ Quadrature hemisphere_quadrature(int rings);
 std::vector<glm::dvec3> icosahedron_vertices();
 
 // The sphere in cells within which piecewise bases are smooth: no cell crosses an octant's border, an edge of the
-// icosahedron, or the horizon of one of its vertices. Gauss-Legendre
-// with points^2 points in each of the 240 cells, collapsed in the vertex or face centre, where a basis may depend on
-// the side one comes from.
+// icosahedron, or the horizon of one of its vertices. Gauss-Legendre with points^2 points in each of the 240 cells,
+// collapsed in the vertex or face centre, where a basis may depend on the side one comes from.
 Quadrature icosahedral_quadrature(int points);
 
 // What bases are projected with: hemisphere_quadrature for `hemisphere`, else icosahedral_quadrature. Made once.

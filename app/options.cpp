@@ -286,6 +286,11 @@ void add_technique_option(CLI::App& command, ShadingOptions& options, const std:
   });
 }
 
+bool reads_option(const TechniqueInfo& technique, const std::string& option) {
+  return std::all_of(std::begin(kReadByTechniques), std::end(kReadByTechniques),
+                     [&](const ReadByTechniques& some) { return option != some.option || some.reads(technique); });
+}
+
 void add_light_option(CLI::App& command, ShadingOptions& options, bool one) {
   add_parsed(command, "--light", one ? "auto|lightmap|vertex|volume" : "auto|lightmap|vertex|volume|all",
              one ? "where the technique reads its light from (default: auto)"

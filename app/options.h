@@ -40,6 +40,7 @@ Verb add_experiment(CLI::App& app);
 Verb add_frontier(CLI::App& app);
 Verb add_stability(CLI::App& app);
 Verb add_eval(CLI::App& app);
+Verb add_golden(CLI::App& app);
 
 // Every verb.
 struct CommonOptions {
@@ -96,6 +97,8 @@ void add_subject_options(CLI::App& command, SubjectOptions& options);
 // --technique and --map; once parsed, refuses what the chosen techniques or the shader do not read. Help says that a
 // verb takes one of each unless its default is all.
 void add_technique_option(CLI::App& command, ShadingOptions& options, const std::string& default_techniques);
+// Whether a technique reads what an option says: --map, --order and --pca-metric are read by some only.
+bool reads_option(const TechniqueInfo& technique, const std::string& option);
 void add_light_option(CLI::App& command, ShadingOptions& options, bool one = false);
 // --technique, --map, --light and --shader.
 void add_shading_options(CLI::App& command, ShadingOptions& options, const std::string& default_techniques);

@@ -168,6 +168,21 @@ class Walk {
   bool differs_ = false, flushed_only_ = true;
 };
 
+void require_comparable(const Frame& a, const Frame& b) {
+  TWINSHADE_CHECK_EQ(a.width, b.width);
+  TWINSHADE_CHECK_EQ(a.height, b.height);
+  TWINSHADE_CHECK_EQ(int(a.color_scalar), int(b.color_scalar));
+  for (const Frame* frame : {&a, &b}) {
+    const std::size_t pixels = std::size_t(frame->width) * frame->height;
+    TWINSHADE_CHECK_EQ(frame->coverage.size(), pixels);
+    TWINSHADE_CHECK_EQ(frame->primitive_id.size(), pixels);
+    TWINSHADE_CHECK_EQ(frame->depth.size(), pixels);
+    TWINSHADE_CHECK_EQ(frame->color.size(), pixels * 4);
+    TWINSHADE_CHECK_EQ(frame->attributes.size(), pixels * frame->attribute_names.size());
+    TWINSHADE_CHECK_EQ(frame->attribute_scalars.size(), frame->attribute_names.size());
+  }
+}
+
 }  // namespace
 
 double value_of(Scalar scalar, std::uint32_t bits) {
@@ -199,19 +214,22 @@ std::uint64_t ulp_distance(float a, float b) {
   return std::uint64_t(distance < 0 ? -distance : distance);
 }
 
-Comparison compare_frames(const Frame& a, const Frame& b, CompareScope scope) {
-  TWINSHADE_CHECK_EQ(a.width, b.width);
-  TWINSHADE_CHECK_EQ(a.height, b.height);
-  TWINSHADE_CHECK_EQ(int(a.color_scalar), int(b.color_scalar));
-  for (const Frame* frame : {&a, &b}) {
-    const std::size_t pixels = std::size_t(frame->width) * frame->height;
-    TWINSHADE_CHECK_EQ(frame->coverage.size(), pixels);
-    TWINSHADE_CHECK_EQ(frame->primitive_id.size(), pixels);
-    TWINSHADE_CHECK_EQ(frame->depth.size(), pixels);
-    TWINSHADE_CHECK_EQ(frame->color.size(), pixels * 4);
-    TWINSHADE_CHECK_EQ(frame->attributes.size(), pixels * frame->attribute_names.size());
-    TWINSHADE_CHECK_EQ(frame->attribute_scalars.size(), frame->attribute_names.size());
+bool within_ulp(const Frame& a, const Frame& b, std::uint64_t ulp) {
+  require_comparable(a, b);
+  if (a.coverage != b.coverage || a.primitive_id != b.primitive_id) return false;
+  const auto near = [&](Scalar scalar, float x, float y) {
+    return same_value(scalar, x, y) || (scalar == Scalar::f32 && ulp_distance(x, y) <= ulp);
+  };
+  for (std::size_t pixel = 0; pixel < a.depth.size(); ++pixel) {
+    if (!near(Scalar::f32, a.depth[pixel], b.depth[pixel])) return false;
+    for (std::size_t c = pixel * 4; c < pixel * 4 + 4; ++c)
+      if (!near(a.color_scalar, a.color[c], b.color[c])) return false;
   }
+  return true;
+}
+
+Comparison compare_frames(const Frame& a, const Frame& b, CompareScope scope) {
+  require_comparable(a, b);
   return Walk(a, b, scope).run();
 }
 

@@ -44,6 +44,10 @@ struct Comparison {
 enum class CompareScope { all, shaded_by_a };  // shaded_by_a: colour only, where a covers (softpipe)
 Comparison compare_frames(const Frame& a, const Frame& b, CompareScope scope = CompareScope::all);
 
+// Whether two frames have the same coverage and primitives, and depths and colours that are at most `ulp` apart.
+// Integers have to be equal, and NaN is near NaN alone.
+bool within_ulp(const Frame& a, const Frame& b, std::uint64_t ulp);
+
 // A value's bits as a number, exactly.
 double value_of(Scalar scalar, std::uint32_t bits);
 

@@ -144,8 +144,8 @@ std::vector<int> channels_read(const Names& names, bool is_exr) {
   return alpha >= 0 ? std::vector<int>{grey, alpha} : std::vector<int>{grey};
 }
 
-DecodedImage read_all(OIIO::ImageInput& input, std::uint64_t most) {
-  const OIIO::ImageSpec spec = input.spec();
+// Of a size that can be, and stored as it is seen.
+void require_plain(const OIIO::ImageSpec& spec) {
   if (spec.width < 1 || spec.height < 1 || spec.width > kLargestSide || spec.height > kLargestSide || spec.depth > 1 ||
       double(spec.width) * spec.height * spec.nchannels > kMostSamples)
     refuse("its size is " + std::to_string(spec.width) + " x " + std::to_string(spec.height));
@@ -153,6 +153,11 @@ DecodedImage read_all(OIIO::ImageInput& input, std::uint64_t most) {
   if (spec.x != spec.full_x || spec.y != spec.full_y || spec.width != spec.full_width ||
       spec.height != spec.full_height)
     refuse("its data window is not its display window; crop or fill it first");
+}
+
+DecodedImage read_all(OIIO::ImageInput& input, std::uint64_t most) {
+  const OIIO::ImageSpec spec = input.spec();
+  require_plain(spec);
   if (spec.get_int_attribute("Orientation", 1) != 1) refuse("it is stored turned or mirrored; save it upright");
 
   const std::vector<int> order = channels_read(spec.channelnames, std::string_view(input.format_name()) == "openexr");
@@ -221,24 +226,23 @@ DecodedImage read_memory(std::string_view bytes, const std::string& format, std:
   return read_opened(*input, "memory." + format, most);
 }
 
-void write_file(const std::string& path, const ImageToWrite& image) {
-  const auto out = OIIO::ImageOutput::create(path);
-  if (!out) refuse(OIIO::geterror());
-  const OIIO::TypeDesc type = image.is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
-  OIIO::ImageSpec spec(int(image.width), int(image.height), image.channels, type);
-  if (image.is_float)
-    spec.attribute("compression", "zip");
-  else
-    spec.attribute("oiio:ColorSpace", "sRGB");
+constexpr std::string_view kNotePrefix = "twinshade:";
+
+void add_notes(OIIO::ImageSpec& spec, const std::vector<std::pair<std::string, std::string>>& notes) {
   // The library would put the time of writing into EXR files.
   spec.attribute("DateTime", "1970:01:01 00:00:00");
-  for (const auto& [key, value] : image.notes) spec.attribute("twinshade:" + key, value);
-  // Into memory: writing to a file itself, the library does not see all that fails, and a PNG cut short would pass.
+  for (const auto& [key, value] : notes) spec.attribute(std::string(kNotePrefix) + key, value);
+}
+
+// Into memory first: writing to a file itself, the library does not see all that fails, and a PNG cut short would pass.
+void write_pixels(const std::string& path, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* upper_row,
+                  OIIO::stride_t row_stride) {
+  const auto out = OIIO::ImageOutput::create(path);
+  if (!out) refuse(OIIO::geterror());
   OIIO::Filesystem::IOVecOutput memory;
   if (!out->supports("ioproxy") || !out->set_ioproxy(&memory)) refuse("this format cannot be made in memory");
   if (!out->open(path, spec)) refuse(out->geterror());
-  if (!out->write_image(type, image.upper_row, OIIO::AutoStride, OIIO::stride_t(image.row_stride)))
-    refuse(out->geterror());
+  if (!out->write_image(type, upper_row, OIIO::AutoStride, row_stride)) refuse(out->geterror());
   if (!out->close()) refuse(out->geterror());
   std::ofstream file(path, std::ios::binary);
   const auto& bytes = memory.buffer();
@@ -247,9 +251,62 @@ void write_file(const std::string& path, const ImageToWrite& image) {
   if (!file) refuse(std::strerror(errno));
 }
 
+void write_file(const std::string& path, const ImageToWrite& image) {
+  const OIIO::TypeDesc type = image.is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
+  OIIO::ImageSpec spec(int(image.width), int(image.height), image.channels, type);
+  if (image.is_float)
+    spec.attribute("compression", "zip");
+  else
+    spec.attribute("oiio:ColorSpace", "sRGB");
+  add_notes(spec, image.notes);
+  write_pixels(path, spec, type, image.upper_row, OIIO::stride_t(image.row_stride));
+}
+
+OIIO::TypeDesc word_type(bool is_float) { return is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT32; }
+
+void write_channels(const std::string& path, const ChannelImage& image) {
+  OIIO::ImageSpec spec(int(image.width), int(image.height), int(image.channels.size()), OIIO::TypeDesc::FLOAT);
+  spec.channelnames.clear();
+  for (const ChannelImage::Channel& channel : image.channels) {
+    spec.channelnames.push_back(channel.name);
+    spec.channelformats.push_back(word_type(channel.is_float));
+  }
+  spec.attribute("compression", "zip");
+  add_notes(spec, image.notes);
+  // UNKNOWN: each channel is in its own format already.
+  write_pixels(path, spec, OIIO::TypeDesc::UNKNOWN, image.words.data(), OIIO::AutoStride);
+}
+
+ChannelImage read_channels(const std::string& path, std::uint64_t most) {
+  const StderrOfLibraries quiet;
+  const std::unique_ptr<OIIO::ImageInput> input = reader_of("openexr");
+  OIIO::ImageSpec spec;
+  if (!input->open(path, spec)) refuse(input->geterror());
+  require_plain(spec);
+  ChannelImage image;
+  image.width = std::uint32_t(spec.width);
+  image.height = std::uint32_t(spec.height);
+  for (int c = 0; c < spec.nchannels; ++c) {
+    const OIIO::TypeDesc type = spec.channelformat(c);
+    if (type != word_type(true) && type != word_type(false))
+      refuse("its channel " + spec.channelnames[std::size_t(c)] + " is not of 32 bits");
+    image.channels.push_back({spec.channelnames[std::size_t(c)], type == word_type(true)});
+  }
+  for (const OIIO::ParamValue& value : spec.extra_attribs)
+    if (const std::string_view name(value.name().c_str()); name.substr(0, kNotePrefix.size()) == kNotePrefix)
+      image.notes.emplace_back(name.substr(kNotePrefix.size()), value.get_string());
+  const std::size_t count = std::size_t(image.width) * image.height * image.channels.size();
+  if (count * sizeof(std::uint32_t) > most) throw std::bad_alloc();
+  image.words.resize(count);
+  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UNKNOWN, image.words.data()) || input->has_error())
+    refuse(input->geterror());
+  return image;
+}
+
 }  // namespace
 }  // namespace twinshade
 
-extern "C" __attribute__((visibility("default"))) const twinshade::ImageCodec twinshade_image_codec_2;
-const twinshade::ImageCodec twinshade_image_codec_2 = {twinshade::read_file, twinshade::read_memory,
-                                                       twinshade::write_file};
+extern "C" __attribute__((visibility("default"))) const twinshade::ImageCodec twinshade_image_codec_3;
+const twinshade::ImageCodec twinshade_image_codec_3 = {twinshade::read_file, twinshade::read_memory,
+                                                       twinshade::write_file, twinshade::read_channels,
+                                                       twinshade::write_channels};

@@ -162,6 +162,22 @@ std::array<double, 3> radiance_exposure(std::string_view bytes, const std::strin
   return exposure;
 }
 
+// write: throws std::runtime_error with the reason.
+template <class Write>
+void write_with_codec(const std::string& path, const Write& write) {
+  write_file_with(path, [&](const std::string& temporary) {
+    try {
+      write(temporary);
+    } catch (const std::runtime_error& error) {
+      const std::string reason = error.what();
+      std::string line = reason.substr(0, reason.find('\n'));
+      // The library names the temporary file; the user knows only the final one.
+      if (const auto at = line.find(temporary); at != std::string::npos) line.replace(at, temporary.size(), path);
+      throw UserError(path + ": cannot be written: " + (line.empty() ? "unknown reason" : line));
+    }
+  });
+}
+
 }  // namespace
 
 std::string lower_case_ending(const std::string& path) {
@@ -212,17 +228,33 @@ DecodedImage decode_image_memory(std::string_view bytes, const std::string& name
 }
 
 void write_image_file(const std::string& path, const ImageToWrite& image) {
-  write_file_with(path, [&](const std::string& temporary) {
-    try {
-      image_codec().write_file(temporary, image);
-    } catch (const std::runtime_error& error) {
-      const std::string reason = error.what();
-      std::string line = reason.substr(0, reason.find('\n'));
-      // The library names the temporary file; the user knows only the final one.
-      if (const auto at = line.find(temporary); at != std::string::npos) line.replace(at, temporary.size(), path);
-      throw UserError(path + ": cannot be written: " + (line.empty() ? "unknown reason" : line));
-    }
-  });
+  write_with_codec(path, [&](const std::string& temporary) { image_codec().write_file(temporary, image); });
+}
+
+std::size_t ChannelImage::find(std::string_view name) const {
+  return std::size_t(std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name == name; }) -
+                     channels.begin());
+}
+
+void write_channel_file(const std::string& path, const ChannelImage& image) {
+  TWINSHADE_CHECK_EQ(image.words.size(), std::size_t(image.width) * image.height * image.channels.size());
+  write_with_codec(path, [&](const std::string& temporary) { image_codec().write_channels(temporary, image); });
+}
+
+ChannelImage read_channel_file(const std::string& path) {
+  constexpr std::string_view kBeginning = "v/1\x01";
+  try {
+    const std::string bytes = read_file(path);
+    if (bytes.empty()) refuse(path, "the file is empty");
+    if (std::string_view(bytes).substr(0, kBeginning.size()) != kBeginning) refuse(path, "it is no OpenEXR file");
+    return image_codec().read_channels(path, available_memory());
+  } catch (const UserError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    refuse(path, error.what());
+  } catch (const std::bad_alloc&) {
+    refuse(path, kNoMemory);
+  }
 }
 
 }  // namespace twinshade

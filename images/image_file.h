@@ -36,6 +36,28 @@ struct ImageToWrite {
 // written; nothing half-written stays behind.
 void write_image_file(const std::string& path, const ImageToWrite& image);
 
+// A picture of named channels, each of 32-bit words that nothing converts: what is written is read bit for bit.
+struct ChannelImage {
+  struct Channel {
+    std::string name;
+    bool is_float = true;  // else unsigned integers
+  };
+  std::uint32_t width = 0, height = 0;
+  std::vector<Channel> channels;     // as read: in the order of the file's library
+  std::vector<std::uint32_t> words;  // row 0 is the upper one; of a pixel, in the order of the channels
+  std::vector<std::pair<std::string, std::string>> notes;  // text attributes
+
+  // Index of that channel; channels.size() where there is none.
+  std::size_t find(std::string_view name) const;
+};
+
+// As OpenEXR, without loss. The same image is the same bytes, by the same version of the library. UserError as
+// write_image_file.
+void write_channel_file(const std::string& path, const ChannelImage& image);
+// UserError naming the file: missing, truncated, damaged, no OpenEXR file, channels of other than 32 bits, larger than
+// memory.
+ChannelImage read_channel_file(const std::string& path);
+
 // Pixel `index` of an image, row by row from the upper left, for messages.
 std::string pixel_name(std::size_t index, std::uint32_t width);
 

@@ -1,0 +1,27 @@
+// golden: reference images, kept with a manifest under version control, and frames held to them.
+#include "app/golden.h"
+
+#include <CLI/CLI.hpp>
+
+#include <vector>
+
+namespace twinshade {
+
+Verb add_golden(CLI::App& app) {
+  CLI::App* golden = app.add_subcommand("golden", "reference images: update makes them, check holds frames to them");
+  golden->require_subcommand(1);
+  const std::vector<Verb> commands{add_golden_update(*golden), add_golden_check(*golden)};
+  for (const Verb& verb : commands)
+    for (CLI::Option* option : verb.command->get_options())
+      if (option->nonpositional()) option->allow_extra_args(false);  // as main() says of its verbs
+  return {golden, [commands] {
+            for (const Verb& verb : commands)
+              if (verb.command->parsed()) {
+                require_names(*verb.command);
+                return verb.run();
+              }
+            return 2;
+          }};
+}
+
+}  // namespace twinshade

@@ -1,0 +1,299 @@
+// golden check: draws the entries of manifests again, and holds each frame to its image bit by bit.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <set>
+
+#include "app/dialect.h"
+#include "app/golden.h"
+#include "app/golden_drawing.h"
+#include "app/golden_report.h"
+#include "app/golden_scene.h"
+#include "app/provenance.h"
+#include "base/error.h"
+#include "base/names.h"
+#include "golden/frame_file.h"
+#include "golden/pictures.h"
+
+namespace twinshade {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+struct GoldenCheckVerb {
+  CLI::App* command = nullptr;
+  CommonOptions common;
+  CpuOptions cpu;
+  std::vector<std::string> folders, backends{"cpu"};
+  std::string only, junit_file, annotate, pictures;
+  std::uint64_t ulp = 0;
+  bool host_fma = true;
+  double time_limit_seconds = DrawOptions().time_limit_seconds;
+
+  int run() const;
+};
+
+// Of an entry and a backend: the image and the frame to look at, where they differ, and the frame as a golden image.
+struct PictureNames {
+  std::string image, frame, difference, kept;
+  PictureNames(const std::string& name, const std::string& on)
+      : image(name + ".golden.png"),
+        frame(name + "." + on + ".png"),
+        difference(name + "." + on + ".difference.png"),
+        kept(name + "." + on + ".exr") {}
+  std::vector<std::string> all() const { return {image, frame, difference, kept}; }
+};
+
+class GoldenCheckRun {
+ public:
+  GoldenCheckRun(const GoldenCheckVerb& verb, Output& output)
+      : verb_(verb),
+        output_(output),
+        silent_options_(silent(verb.common)),
+        silent_(silent_options_),
+        machines_(verb.cpu, verb.host_fma),
+        provenance_(verb.common) {}
+
+  int run() {
+    for (const std::string& folder : verb_.folders)
+      for (const GoldenEntry& entry : chosen(folder)) entries_.emplace_back(folder, entry);
+    require_entries();
+    protect_files();
+    std::vector<std::string> names;
+    for (const auto& [folder, entry] : entries_) names.push_back(entry.name);
+    table_ = check_table(names, verb_.backends);
+    for (const auto& [folder, entry] : entries_) check(folder, entry);
+    return report();
+  }
+
+ private:
+  static CommonOptions silent(CommonOptions common) {
+    common.quiet = true;
+    common.json.clear();
+    return common;
+  }
+
+  std::vector<GoldenEntry> chosen(const std::string& folder) {
+    const GoldenManifest manifest = read_manifest(folder);
+    for (const GoldenEntry& entry : manifest.entries) known_.push_back(entry.name);
+    return chosen_entries(manifest, verb_.only, false);
+  }
+
+  void require_entries() const {
+    if (!entries_.empty()) return;
+    if (known_.empty()) throw UserError(manifest_path(verb_.folders.front()) + ": it has no entries");
+    throw UserError("--only: " + unknown_name_message("entry", verb_.only, known_));
+  }
+
+  // What is read stays as it is.
+  void protect_files() {
+    std::vector<std::string> read;
+    std::vector<std::string> written;
+    std::set<std::string> names;
+    for (const auto& [folder, entry] : entries_) {
+      if (!verb_.pictures.empty() && !names.insert(entry.name).second)
+        throw UserError("-o " + verb_.pictures + ": two folders have an entry " + entry.name +
+                        ", whose pictures would have one name: check one folder at a time");
+      read.push_back(manifest_path(folder));
+      read.push_back(golden_image_path(folder, entry.name));
+      try {
+        const DrawingOptions options = parse_drawing(entry.drawing, folder);
+        for (std::string& file : files_read(options.subject, options.shading)) read.push_back(std::move(file));
+      } catch (const UserError&) {  // told where it is drawn
+      }
+      for (const std::string& on : verb_.backends)
+        for (std::string& name : PictureNames(entry.name, on).all()) written.push_back(std::move(name));
+    }
+    if (!verb_.pictures.empty()) output_.claim(std::move(written));
+    output_.require_not_read(read);
+    if (!verb_.pictures.empty()) require_writable_folder(verb_.pictures);
+  }
+
+  void check(const std::string& folder, const GoldenEntry& entry) {
+    const auto start = Clock::now();
+    output_.progress(fmt::format("drawing {} ({} of {})", entry.name, ++drawn_, entries_.size()));
+    const GoldenImage image = read_golden_image(folder, entry);
+    try {
+      const GoldenScene scene = load_golden_scene(entry.drawing, folder, verb_.common, silent_, machines_);
+      const FrameOutput output = find_output(scene, entry);
+      provenance_.add_shader(entry.name, scene.shader_hash);
+      auto begin = start;  // the first backend's time has the scene's in it
+      for (const std::string& on : verb_.backends) {
+        GoldenRow row = row_of(folder, entry, on);
+        row.shader_file = scene.shader_file;
+        row.changes.bundle = scene.bundle_hash != entry.bundle;
+        row.changes.shader = scene.shader_hash != entry.shader;
+        remove_pictures(row);
+        hold(row, scene, output, image, entry);
+        row.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+        begin = Clock::now();
+        add(std::move(row));
+      }
+    } catch (const UserError& error) {
+      for (const std::string& on : verb_.backends) {
+        GoldenRow row = row_of(folder, entry, on);
+        row.result = GoldenResult::failed;
+        row.error = error.what();
+        add(std::move(row));
+      }
+    }
+  }
+
+  static GoldenRow row_of(const std::string& folder, const GoldenEntry& entry, const std::string& on) {
+    GoldenRow row;
+    row.folder = folder, row.name = entry.name, row.on = on, row.golden_frame = entry.frame;
+    return row;
+  }
+
+  Frame draw(const std::string& on, const GoldenScene& scene, const FrameOutput& output, bool capture) {
+    DrawOptions options;
+    options.output = output.location;
+    options.capture_attributes = capture;
+    options.time_limit_seconds = verb_.time_limit_seconds;
+    Frame frame = machines_.draw(on, scene.subject.bundle, scene.shading.source, options);
+    provenance_.add(on, frame);
+    return frame;
+  }
+
+  void hold(GoldenRow& row, const GoldenScene& scene, const FrameOutput& output, const GoldenImage& image,
+            const GoldenEntry& entry) {
+    Frame frame;
+    try {
+      frame = draw(row.on, scene, output, false);
+    } catch (const BackendError& error) {
+      row.result = GoldenResult::no_backend;
+      row.error = error.what();
+      return;
+    }
+    row.frame = frame_hash(frame);
+    if (!image.frame) {
+      row.result = image.trouble;
+      row.error =
+          image.reason +
+          (row.frame == entry.frame
+               ? fmt::format(" (the frame drawn has the hash of the manifest: twinshade golden update {} --only "
+                             "{} makes the image anew)",
+                             row.folder, row.name)
+               : "; the frame drawn has another hash than the manifest");
+      return;
+    }
+    hold_to_image(row, *image.frame, frame, verb_.ulp, [&] { return draw(row.on, scene, output, true); });
+    if (row.passes()) return;
+    row.findings = findings_of(scene.shading.source);
+    write_pictures(row, *image.frame, frame);
+  }
+
+  // An earlier run's would stay beside frames that are the same now.
+  void remove_pictures(const GoldenRow& row) const {
+    if (verb_.pictures.empty()) return;
+    for (const std::string& name : PictureNames(row.name, row.on).all()) {
+      std::error_code code;
+      fs::remove(output_.claimed(name), code);
+      if (code) throw UserError(output_.claimed(name) + ": cannot be removed: " + code.message());
+    }
+  }
+
+  void write_pictures(const GoldenRow& row, const Frame& image, const Frame& frame) const {
+    if (verb_.pictures.empty()) return;
+    const PictureNames names(row.name, row.on);
+    make_folder(verb_.pictures);
+    write_picture(output_.claimed(names.image), image);
+    write_picture(output_.claimed(names.frame), frame);
+    if (row.comparison) write_difference_picture(output_.claimed(names.difference), image, frame);
+    write_frame_file(output_.claimed(names.kept), frame);
+  }
+
+  void add(GoldenRow row) {
+    if (!verb_.common.quiet || !row.passes()) {
+      output_.text((headed_ ? "" : table_.headings()) + table_.line(check_cells(row)));
+      headed_ = true;
+    }
+    rows_.push_back(std::move(row));
+  }
+
+  int report() const {
+    Json results = Json::array();
+    std::string failures;
+    for (const GoldenRow& row : rows_) {
+      results.push_back(golden_json(row));
+      failures += failure_text(row);
+    }
+    output_.json({{"provenance", provenance_.json()}, {"results", results}});
+    output_.junit(junit_xml("twinshade golden check", golden_junit(rows_)));
+    output_.text(failures + check_summary(rows_, verb_.ulp));
+    if (!verb_.annotate.empty()) output_.text(github_annotations(golden_junit(rows_)));
+    int code = 0;
+    for (const GoldenRow& row : rows_) {
+      if (row.result == GoldenResult::no_backend) return 2;
+      if (!row.passes()) code = 1;
+    }
+    return code;
+  }
+
+  const GoldenCheckVerb& verb_;
+  Output& output_;
+  const CommonOptions silent_options_;
+  const Output silent_;
+  Machines machines_;
+  Provenance provenance_;
+  std::vector<std::string> known_;                            // names of all entries
+  std::vector<std::pair<std::string, GoldenEntry>> entries_;  // of a folder
+  Table table_;                                               // its columns: rows are not kept
+  std::vector<GoldenRow> rows_;
+  std::size_t drawn_ = 0;
+  bool headed_ = false;
+};
+
+int GoldenCheckVerb::run() const {
+  apply(common);
+  Output output(common, junit_file, pictures);
+  require_backends(backends);
+  require_machine_options(*command, backends);
+  if (std::find(backends.begin(), backends.end(), "softpipe") != backends.end())
+    throw UserError(
+        "--on: softpipe draws no frame of its own: it shades what the CPU covered (twinshade compare --on "
+        "cpu,softpipe)");
+  if (cpu.number == Number::float64)
+    throw UserError("--number float64: frames in double have other bits by design; twinshade render draws them");
+  if (command->get_option("--seed")->count() > 0)
+    throw UserError("--seed: each entry keeps the one that it was drawn with: leave it out");
+  return GoldenCheckRun(*this, output).run();
+}
+
+}  // namespace
+
+Verb add_golden_check(CLI::App& golden) {
+  CLI::App* command = golden.add_subcommand("check", "draw again what manifests say, and hold it to the golden images");
+  const auto verb = std::make_shared<GoldenCheckVerb>();
+  verb->command = command;
+  command->add_option("folder", verb->folders, "folders of a golden.json and its images")
+      ->required()
+      ->type_name("DIR...");
+  command->add_option("--on", verb->backends, "backends of cpu, egl, osmesa, gpu (default: cpu)")
+      ->delimiter(',')
+      ->type_name("A,B,...");
+  command->add_option("--only", verb->only, "only entries whose names are like this: * any text, ? any one")
+      ->type_name("PATTERN");
+  add_whole_option(*command, "--ulp",
+                   "let depths and colours pass that are at most so many ULP off, for graphics cards (default: 0)", 0,
+                   UINT32_MAX, [v = verb.get()](std::uint64_t value) { v->ulp = value; });
+  command
+      ->add_option("-o,--output", verb->pictures,
+                   "folder for what differs: pictures of image, frame and difference, and the frame itself")
+      ->type_name("DIR");
+  command->add_option("--junit", verb->junit_file, "write the results as JUnit XML; - for stdout")->type_name("F.xml");
+  add_annotate_option(*command, verb->annotate);
+  add_time_limit_option(*command, verb->time_limit_seconds);
+  add_cpu_options(*command, verb->cpu);
+  add_fma_option(*command, verb->host_fma);
+  add_common_options(*command, verb->common);
+  command->get_option("--quiet")->description("no progress and no notes; of the table only what does not pass");
+  return {command, [verb] { return verb->run(); }};
+}
+
+}  // namespace twinshade

@@ -166,7 +166,7 @@ bool is_golden_name(const std::string& name) {
 }
 
 std::string golden_name(const std::string& wanted) {
-  std::string name = wanted.substr(0, kLongestName);
+  std::string name = wanted.substr(0, kLongestName - 1);
   for (char& c : name)
     if (!is_name_character(c)) c = '_';
   if (name.empty() || !begins_as_name(name.front())) name.insert(0, "_");

@@ -232,4 +232,38 @@ TEST_CASE("uncovered pixels are compared too: what was cleared must have stayed 
   CHECK(compare_frames(a, b).max_ulp == 0);  // of shaded pixels only
 }
 
+TEST_CASE("within a tolerance are frames of the same surfaces, whose floats are near each other") {
+  const Frame a = sample_frame();
+  const std::size_t pixel = at(a, 6, 3);
+  const auto with = [&](auto change) {
+    Frame b = a;
+    change(b);
+    return b;
+  };
+  CHECK(within_ulp(a, a, 0));
+  const Frame colour = with([&](Frame& b) { b.color[pixel * 4 + 2] = next(b.color[pixel * 4 + 2], 3); });
+  CHECK(within_ulp(a, colour, 3));
+  CHECK_FALSE(within_ulp(a, colour, 2));
+  const Frame depth = with([&](Frame& b) { b.depth[pixel] = next(b.depth[pixel], 5); });
+  CHECK(within_ulp(a, depth, 5));
+  CHECK_FALSE(within_ulp(a, depth, 4));
+  const Frame cleared = with([&](Frame& b) { b.color[at(b, 3, 0) * 4 + 3] = 1; });
+  CHECK_FALSE(within_ulp(a, cleared, 1000));
+  constexpr std::uint64_t kAny = 0xffffffffu;
+  CHECK_FALSE(within_ulp(a, with([&](Frame& b) { b.coverage[pixel] = 0; }), kAny));
+  CHECK_FALSE(within_ulp(a, with([&](Frame& b) { ++b.primitive_id[pixel]; }), kAny));
+  const Frame nan = with([&](Frame& b) { b.color[pixel * 4] = NAN; });
+  CHECK_FALSE(within_ulp(a, nan, kAny));
+  CHECK(within_ulp(nan, nan, 0));
+}
+
+TEST_CASE("integers are within no tolerance but their own value") {
+  Frame a = sample_frame();
+  a.color_scalar = Scalar::u32;
+  Frame b = a;
+  b.color[at(a, 2, 2) * 4] = std::bit_cast<float>(std::bit_cast<std::uint32_t>(a.color[at(a, 2, 2) * 4]) + 1);
+  CHECK_FALSE(within_ulp(a, b, 100));
+  CHECK(within_ulp(a, a, 0));
+}
+
 }  // namespace twinshade

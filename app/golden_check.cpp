@@ -119,7 +119,7 @@ class GoldenCheckRun {
     output_.progress(fmt::format("drawing {} ({} of {})", entry.name, ++drawn_, entries_.size()));
     const GoldenImage image = read_golden_image(folder, entry);
     try {
-      const GoldenScene scene = load_golden_scene(entry.drawing, folder, verb_.common, silent_, machines_);
+      const GoldenScene scene = load_golden_scene(entry.drawing, folder, verb_.common, silent_, machines_, inputs_);
       const FrameOutput output = find_output(scene, entry);
       provenance_.add_shader(entry.name, scene.shader_hash);
       auto begin = start;  // the first backend's time has the scene's in it
@@ -240,6 +240,7 @@ class GoldenCheckRun {
   const CommonOptions silent_options_;
   const Output silent_;
   Machines machines_;
+  SubjectInputs inputs_;
   Provenance provenance_;
   std::vector<std::string> known_;                            // names of all entries
   std::vector<std::pair<std::string, GoldenEntry>> entries_;  // of a folder

@@ -39,12 +39,12 @@ Frame with_inputs(Frame image, const Frame& frame) {
 }  // namespace
 
 GoldenScene load_golden_scene(const GoldenDrawing& drawing, const std::string& folder, const CommonOptions& common,
-                              const Output& output, Machines& machines) {
+                              const Output& output, Machines& machines, SubjectInputs& inputs) {
   DrawingOptions options = parse_drawing(drawing, folder);
   CommonOptions own = common;
   own.seed = options.common.seed;
   GoldenScene scene;
-  scene.subject = load_subject(options.subject, options.shading, own, output);
+  scene.subject = load_subject(options.subject, options.shading, own, output, {}, &inputs);
   std::vector<Shading> shadings = load_shadings(options.shading, scene.subject);
   if (shadings.size() != 1)
     throw UserError(fmt::format("\"draw\" is of {} frames: name one technique, one map, one light", shadings.size()));

@@ -106,7 +106,8 @@ class GoldenUpdateRun {
   void draw(const GoldenJob& job, bool first) {
     // What is said of a scene is said once; of an entry, when it was added.
     const Output& of_scene = first && !job.entry ? output_ : silent_;
-    const GoldenScene scene = load_golden_scene(job.drawing, verb_.folder, verb_.options.common, of_scene, machines_);
+    const GoldenScene scene =
+        load_golden_scene(job.drawing, verb_.folder, verb_.options.common, of_scene, machines_, inputs_);
     provenance_.add(scene.shading);
     if (job.entry) {
       keep(scene, find_output(scene, *job.entry), *job.entry);
@@ -241,6 +242,7 @@ class GoldenUpdateRun {
   const CommonOptions silent_options_;
   const Output silent_;
   Machines machines_;
+  SubjectInputs inputs_;
   Provenance provenance_;
   GoldenManifest manifest_;
   std::vector<GoldenJob> jobs_;

@@ -222,8 +222,8 @@ void add_visibility(Bundle& bundle, const SubjectOptions& options, const Shading
 }
 
 Bundle bundle_from_scene(const SubjectOptions& options, const ShadingOptions& shading, const Scene& scene,
-                         const std::vector<LitTechnique>& baked, const CommonOptions& common, const Output& output) {
-  const Environment environment = load_light(options);
+                         const Environment& environment, const std::vector<LitTechnique>& baked,
+                         const CommonOptions& common, const Output& output) {
   if (!environment.note.empty()) output.note(environment.note);
 
   BakeOptions bake;
@@ -254,6 +254,23 @@ constexpr std::uint32_t kFewRows = 32;
 
 Environment load_refined(const std::string& name, bool clamp_radiance) {
   return refine_small_environment(load_environment(name, clamp_radiance), kFewRows);
+}
+
+// The scene that the options name, from `inputs` where it is there.
+std::shared_ptr<const Scene> scene_of(const SubjectOptions& options, SubjectInputs& inputs) {
+  const std::string key = fmt::format("{} {} {}", options.triangles, options.camera.has_value(), options.scene);
+  if (!inputs.scene || inputs.scene_key != key)
+    inputs.scene = std::make_shared<const Scene>(load_scene(options.scene, options.triangles, !options.camera));
+  inputs.scene_key = key;
+  return inputs.scene;
+}
+
+std::shared_ptr<const Environment> light_of(const SubjectOptions& options, SubjectInputs& inputs) {
+  const std::string key = fmt::format("{} {} {} {}\n{}", options.rotation_degrees, options.blend,
+                                      options.clamp_radiance, options.environment, options.second_environment);
+  if (!inputs.light || inputs.light_key != key) inputs.light = std::make_shared<const Environment>(load_light(options));
+  inputs.light_key = key;
+  return inputs.light;
 }
 
 }  // namespace
@@ -335,7 +352,7 @@ std::vector<std::string> files_read(const SubjectOptions& options, const Shading
 }
 
 Subject load_subject(const SubjectOptions& options, const ShadingOptions& shading, const CommonOptions& common,
-                     const Output& output, const std::string& written) {
+                     const Output& output, const std::string& written, SubjectInputs* inputs) {
   // Names and shaders are checked before anything that takes long.
   const bool own_shader = !shading.shader.empty();
   const ShaderSource source = own_shader ? load_fragment_shader(shading.shader, shading.source) : ShaderSource();
@@ -359,7 +376,9 @@ Subject load_subject(const SubjectOptions& options, const ShadingOptions& shadin
   } else {
     require_frame_memory(options.width, options.height, "cpu");
     require_scene_memory(options);
-    const Scene scene = load_scene(options.scene, options.triangles, !options.camera);
+    SubjectInputs own;
+    const std::shared_ptr<const Scene> loaded = scene_of(options, inputs ? *inputs : own);
+    const Scene& scene = *loaded;
     output.require_not_read(scene.files, written);
     note_scene(output, options, scene);
     choose(
@@ -375,7 +394,8 @@ Subject load_subject(const SubjectOptions& options, const ShadingOptions& shadin
     if (own_shader) require_initial_values(source, baked);
     require_lightmap_memory(options, baked);
     require_vertex_memory(scene.positions.size(), baked);
-    subject.bundle = bundle_from_scene(options, shading, scene, baked, common, output);
+    subject.bundle =
+        bundle_from_scene(options, shading, scene, *light_of(options, inputs ? *inputs : own), baked, common, output);
   }
   if (wants_all(shading)) subject.skipped.emplace_back(kReferenceTechnique, kReferenceReason);
   subject.hash = bundle_hash(subject.bundle);

@@ -1,6 +1,7 @@
 // What is drawn, ready: a scene loaded, lit and baked, or a bundle file read.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +20,13 @@ struct Subject {
   std::vector<LitTechnique> drawn;  // what to draw with, in registry order; none for a user's shader
   // With "all": techniques that cannot be lit as asked, and why.
   std::vector<std::pair<std::string, std::string>> skipped;
+};
+
+// What was read last, for subjects that follow one another and name the same: files are taken not to change meanwhile.
+struct SubjectInputs {
+  std::string scene_key, light_key;  // the options that they were read by
+  std::shared_ptr<const Scene> scene;
+  std::shared_ptr<const Environment> light;
 };
 
 // A fragment shader to draw with.
@@ -53,9 +61,10 @@ std::vector<std::string> files_read(const SubjectOptions& options, const Shading
 // Loads, lights and bakes, or reads the bundle; says aloud what the loader had to say. The bundle carries the
 // coefficients of the chosen techniques as --light says, or, for a user's shader, those that it names
 // (coefficients_BASIS, volume_BASIS); nothing else is baked. UserError where a technique that was named cannot be lit
-// so, and where `written` or what the output writes would replace a file that the model is read from.
+// so, and where `written` or what the output writes would replace a file that the model is read from. inputs: what may
+// be used again, and is then replaced by what was read.
 Subject load_subject(const SubjectOptions& options, const ShadingOptions& shading, const CommonOptions& common,
-                     const Output& output, const std::string& written = {});
+                     const Output& output, const std::string& written = {}, SubjectInputs* inputs = nullptr);
 
 // The environment, or the blend of two, rotated.
 Environment load_light(const SubjectOptions& options);

@@ -5,22 +5,27 @@
 
 #include <vector>
 
+#include "base/error.h"
+#include "base/names.h"
+
 namespace twinshade {
 
 Verb add_golden(CLI::App& app) {
   CLI::App* golden = app.add_subcommand("golden", "reference images: update makes them, check holds frames to them");
-  golden->require_subcommand(1);
   const std::vector<Verb> commands{add_golden_update(*golden), add_golden_check(*golden)};
   for (const Verb& verb : commands)
     for (CLI::Option* option : verb.command->get_options())
       if (option->nonpositional()) option->allow_extra_args(false);  // as main() says of its verbs
-  return {golden, [commands] {
+  golden->allow_extras();                                            // told below, better than CLI11 does
+  return {golden, [golden, commands] {
             for (const Verb& verb : commands)
               if (verb.command->parsed()) {
                 require_names(*verb.command);
                 return verb.run();
               }
-            return 2;
+            if (const std::vector<std::string> extra = golden->remaining(); !extra.empty())
+              throw UserError(unknown_name_message("command of golden", extra.front(), {"update", "check"}));
+            throw UserError("golden: say update or check (twinshade golden --help)");
           }};
 }
 

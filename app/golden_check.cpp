@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <iterator>
 #include <memory>
+#include <optional>
 #include <set>
 
 #include "app/dialect.h"
@@ -16,6 +18,7 @@
 #include "app/provenance.h"
 #include "base/error.h"
 #include "base/names.h"
+#include "cpu_shaders/machine.h"
 #include "golden/frame_file.h"
 #include "golden/pictures.h"
 
@@ -109,45 +112,47 @@ class GoldenCheckRun {
       for (const std::string& on : verb_.backends)
         for (std::string& name : PictureNames(entry.name, on).all()) written.push_back(std::move(name));
     }
-    if (!verb_.pictures.empty()) output_.claim(std::move(written));
+    if (!verb_.pictures.empty()) output_.claim(written);
     output_.require_not_read(read);
-    if (!verb_.pictures.empty()) require_writable_folder(verb_.pictures);
+    if (verb_.pictures.empty()) return;
+    require_writable_folder(verb_.pictures);
+    remove_pictures(written);
   }
 
   void check(const std::string& folder, const GoldenEntry& entry) {
-    const auto start = Clock::now();
+    auto begin = Clock::now();  // the first backend's time has the scene's in it
     output_.progress(fmt::format("drawing {} ({} of {})", entry.name, ++drawn_, entries_.size()));
     const GoldenImage image = read_golden_image(folder, entry);
+    std::optional<GoldenScene> scene;
+    FrameOutput output;
+    std::string failure;
     try {
-      const GoldenScene scene = load_golden_scene(entry.drawing, folder, verb_.common, silent_, machines_, inputs_);
-      const FrameOutput output = find_output(scene, entry);
-      provenance_.add_shader(entry.name, scene.shader_hash);
-      auto begin = start;  // the first backend's time has the scene's in it
-      for (const std::string& on : verb_.backends) {
-        GoldenRow row = row_of(folder, entry, on);
-        row.shader_file = scene.shader_file;
-        row.changes.bundle = scene.bundle_hash != entry.bundle;
-        row.changes.shader = scene.shader_hash != entry.shader;
-        remove_pictures(row);
-        hold(row, scene, output, image, entry);
-        row.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-        begin = Clock::now();
-        add(std::move(row));
-      }
+      scene = load_golden_scene(entry.drawing, folder, verb_.common, silent_, machines_, inputs_);
+      output = find_output(*scene, entry);
+      provenance_.add_shader(entry.name, scene->shader_hash);
     } catch (const UserError& error) {
-      for (const std::string& on : verb_.backends) {
-        GoldenRow row = row_of(folder, entry, on);
-        row.result = GoldenResult::failed;
-        row.error = error.what();
-        add(std::move(row));
-      }
+      failure = error.what();
     }
-  }
-
-  static GoldenRow row_of(const std::string& folder, const GoldenEntry& entry, const std::string& on) {
-    GoldenRow row;
-    row.folder = folder, row.name = entry.name, row.on = on, row.golden_frame = entry.frame;
-    return row;
+    std::vector<GoldenRow> rows;
+    for (const std::string& on : verb_.backends) {
+      GoldenRow row;
+      row.folder = folder, row.name = entry.name, row.on = on, row.golden_frame = entry.frame;
+      row.ulp = verb_.ulp;
+      if (failure.empty()) {
+        row.shader_file = scene->shader_file;
+        row.changes.bundle = scene->bundle_hash != entry.bundle;
+        row.changes.shader = scene->shader_hash != entry.shader;
+        hold(row, *scene, output, image, rows);
+      } else {
+        row.result = GoldenResult::failed;
+        row.error = failure;
+      }
+      row.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+      begin = Clock::now();
+      print(row);
+      rows.push_back(std::move(row));
+    }
+    std::move(rows.begin(), rows.end(), std::back_inserter(rows_));
   }
 
   Frame draw(const std::string& on, const GoldenScene& scene, const FrameOutput& output, bool capture) {
@@ -160,8 +165,9 @@ class GoldenCheckRun {
     return frame;
   }
 
+  // before: the same entry on other backends.
   void hold(GoldenRow& row, const GoldenScene& scene, const FrameOutput& output, const GoldenImage& image,
-            const GoldenEntry& entry) {
+            const std::vector<GoldenRow>& before) {
     Frame frame;
     try {
       frame = draw(row.on, scene, output, false);
@@ -169,29 +175,47 @@ class GoldenCheckRun {
       row.result = GoldenResult::no_backend;
       row.error = error.what();
       return;
+    } catch (const UserError& error) {
+      row.result = GoldenResult::failed;
+      row.error = error.what();
+      return;
     }
     row.frame = frame_hash(frame);
     if (!image.frame) {
       row.result = image.trouble;
-      row.error =
-          image.reason +
-          (row.frame == entry.frame
-               ? fmt::format(" (the frame drawn has the hash of the manifest: twinshade golden update {} --only "
-                             "{} makes the image anew)",
-                             row.folder, row.name)
-               : "; the frame drawn has another hash than the manifest");
+      row.error = image.reason + "; the frame drawn has " +
+                  (row.frame == row.golden_frame ? "the hash of the manifest: twinshade golden update " + row.folder +
+                                                       " --only " + row.name + " makes the image anew"
+                                                 : "another hash than the manifest");
       return;
     }
-    hold_to_image(row, *image.frame, frame, verb_.ulp, [&] { return draw(row.on, scene, output, true); });
+    const auto alike =
+        std::find_if(before.begin(), before.end(), [&](const auto& other) { return other.frame == row.frame; });
+    const bool told = alike != before.end();  // what differs, by another backend
+    const auto captured = [&] { return told ? Frame() : draw_with_inputs(row, scene, output); };
+    hold_to_image(row, *image.frame, frame, verb_.ulp, captured);
     if (row.passes()) return;
-    row.findings = findings_of(scene.shading.source);
-    write_pictures(row, *image.frame, frame);
+    if (told) row.description = fmt::format("\n{}: {} draws the same bits as {}\n", row.name, row.on, alike->on);
+    if (!told) row.findings = findings_of(scene.shading.source);
+    try {
+      write_pictures(row, *image.frame, frame);
+    } catch (const UserError& error) {  // told last: the frames are drawn and are held to their images all the same
+      if (write_error_.empty()) write_error_ = error.what();
+    }
+  }
+
+  Frame draw_with_inputs(const GoldenRow& row, const GoldenScene& scene, const FrameOutput& output) {
+    try {
+      return draw(row.on, scene, output, true);
+    } catch (const BackendError& error) {
+      output_.note(fmt::format("{} on {}: inputs of the shader are not known: {}", row.name, row.on, error.what()));
+      return {};
+    }
   }
 
   // An earlier run's would stay beside frames that are the same now.
-  void remove_pictures(const GoldenRow& row) const {
-    if (verb_.pictures.empty()) return;
-    for (const std::string& name : PictureNames(row.name, row.on).all()) {
+  void remove_pictures(const std::vector<std::string>& names) const {
+    for (const std::string& name : names) {
       std::error_code code;
       fs::remove(output_.claimed(name), code);
       if (code) throw UserError(output_.claimed(name) + ": cannot be removed: " + code.message());
@@ -208,12 +232,10 @@ class GoldenCheckRun {
     write_frame_file(output_.claimed(names.kept), frame);
   }
 
-  void add(GoldenRow row) {
-    if (!verb_.common.quiet || !row.passes()) {
-      output_.text((headed_ ? "" : table_.headings()) + table_.line(check_cells(row)));
-      headed_ = true;
-    }
-    rows_.push_back(std::move(row));
+  void print(const GoldenRow& row) {
+    if (verb_.common.quiet && row.passes()) return;
+    output_.text((headed_ ? "" : table_.headings()) + table_.line(check_cells(row)));
+    headed_ = true;
   }
 
   int report() const {
@@ -227,6 +249,7 @@ class GoldenCheckRun {
     output_.junit(junit_xml("twinshade golden check", golden_junit(rows_)));
     output_.text(failures + check_summary(rows_, verb_.ulp));
     if (!verb_.annotate.empty()) output_.text(github_annotations(golden_junit(rows_)));
+    if (!write_error_.empty()) throw UserError(write_error_);
     int code = 0;
     for (const GoldenRow& row : rows_) {
       if (row.result == GoldenResult::no_backend) return 2;
@@ -248,6 +271,7 @@ class GoldenCheckRun {
   std::vector<GoldenRow> rows_;
   std::size_t drawn_ = 0;
   bool headed_ = false;
+  std::string write_error_;  // of the first picture that could not be written
 };
 
 int GoldenCheckVerb::run() const {
@@ -261,6 +285,9 @@ int GoldenCheckVerb::run() const {
         "cpu,softpipe)");
   if (cpu.number == Number::float64)
     throw UserError("--number float64: frames in double have other bits by design; twinshade render draws them");
+  if (cpu.isa) require_isa(*cpu.isa);
+  for (const std::string& folder : folders) require_folder_name(folder);
+  if (command->get_option("--only")->count() > 0 && only.empty()) throw UserError("--only '': the pattern is empty");
   if (command->get_option("--seed")->count() > 0)
     throw UserError("--seed: each entry keeps the one that it was drawn with: leave it out");
   return GoldenCheckRun(*this, output).run();

@@ -10,7 +10,7 @@
 namespace twinshade {
 namespace {
 
-constexpr std::array<const char*, 10> kResultWords{"same",   "within ULP", "DIFFERS", "no image", "damaged",
+constexpr std::array<const char*, 10> kResultWords{"same",   "within",     "DIFFERS", "no image", "damaged",
                                                    "failed", "no backend", "added",   "changed",  "restored"};
 
 const char* words(GoldenResult result) { return kResultWords[std::size_t(result)]; }
@@ -25,17 +25,6 @@ std::vector<std::string> changed_names(const GoldenChanges& changes) {
 
 std::string listed(const std::vector<std::string>& names, const char* none) {
   return names.empty() ? none : fmt::format("{}", fmt::join(names, ", "));
-}
-
-// Why a frame is another one, as far as what it is drawn from tells.
-std::string cause(const GoldenRow& row) {
-  if (row.changes.shader && row.changes.bundle)
-    return "the shader's source and the bundle (scene, camera, light or bake) have changed since the image was made";
-  if (row.changes.shader) return "the shader's source has changed since the image was made";
-  if (row.changes.bundle)
-    return "the bundle (scene, camera, light or bake) has changed since the image was made, the shader has not";
-  return "neither the shader's source nor the bundle has changed: the translator, the compiler, the driver or the "
-         "machine has";
 }
 
 std::string place(const GoldenRow& row) {
@@ -97,10 +86,21 @@ std::vector<std::string> check_cells(const GoldenRow& row) {
 }
 
 std::vector<std::string> update_cells(const GoldenRow& row) {
-  std::vector<std::string> cells{row.name, words(row.result)};
+  std::vector<std::string> cells{
+      row.name, row.result == GoldenResult::within ? fmt::format("within {} ULP", row.ulp) : words(row.result)};
   for (std::string& cell : difference_cells(row)) cells.push_back(std::move(cell));
   cells.push_back(changed_cell(row));
   return cells;
+}
+
+std::string cause(const GoldenRow& row) {
+  if (row.changes.shader && row.changes.bundle)
+    return "the shader's source and the bundle (scene, camera, light or bake) have changed since the image was made";
+  if (row.changes.shader) return "the shader's source has changed since the image was made";
+  if (row.changes.bundle)
+    return "the bundle (scene, camera, light or bake) has changed since the image was made, the shader has not";
+  return "neither the shader's source nor the bundle has changed: the translator, the compiler, the driver or the "
+         "machine has";
 }
 
 std::string failure_text(const GoldenRow& row) {
@@ -129,6 +129,7 @@ Json golden_json(const GoldenRow& row) {
   Json json{{"folder", row.folder}, {"name", row.name}};
   if (!row.on.empty()) json["on"] = row.on;
   json["result"] = words(row.result);
+  if (row.result == GoldenResult::within) json["ulp"] = row.ulp;
   if (!row.error.empty()) json["error"] = row.error;
   if (row.comparison) {
     const Comparison& c = *row.comparison;

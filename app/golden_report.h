@@ -16,7 +16,7 @@ namespace twinshade {
 
 enum class GoldenResult {
   same,        // bit for bit
-  within,      // the tolerance of --ulp
+  within,      // no more off than --ulp says
   differs,     //
   no_image,    // the entry's image is missing
   damaged,     // the image cannot be read, or is not what the manifest says
@@ -41,6 +41,7 @@ struct GoldenRow {
   GoldenChanges changes;
   std::optional<Comparison> comparison;  // of the image and the frame, where both are there and of one size and type
   Json first_difference;                 // null where there is none
+  std::uint64_t ulp = 0;                 // what is let pass
   std::string description;               // several lines, where they differ
   std::vector<LintFinding> findings;     // where they differ
   std::string golden_frame, frame;       // hashes; empty where there is none
@@ -57,6 +58,8 @@ Table update_table(const std::vector<std::string>& names);
 std::vector<std::string> check_cells(const GoldenRow& row);
 std::vector<std::string> update_cells(const GoldenRow& row);
 
+// Why a frame is another one than the image, as far as what it is drawn from tells.
+std::string cause(const GoldenRow& row);
 // Below the table: each failure's own words.
 std::string failure_text(const GoldenRow& row);
 // "11 of 12 the same, 1 within 4 ULP".

@@ -40,14 +40,15 @@ Frame with_inputs(Frame image, const Frame& frame) {
 
 GoldenScene load_golden_scene(const GoldenDrawing& drawing, const std::string& folder, const CommonOptions& common,
                               const Output& output, Machines& machines, SubjectInputs& inputs) {
-  DrawingOptions options = parse_drawing(drawing, folder);
+  const DrawingOptions options = parse_drawing(drawing, folder);
+  if (const std::size_t frames = single_drawings(drawing, options.shading).size(); frames != 1)
+    throw UserError(fmt::format("\"draw\" is of {} frames: name one technique, one map, one light", frames));
   CommonOptions own = common;
   own.seed = options.common.seed;
   GoldenScene scene;
   scene.subject = load_subject(options.subject, options.shading, own, output, {}, &inputs);
   std::vector<Shading> shadings = load_shadings(options.shading, scene.subject);
-  if (shadings.size() != 1)
-    throw UserError(fmt::format("\"draw\" is of {} frames: name one technique, one map, one light", shadings.size()));
+  TWINSHADE_CHECK_EQ(shadings.size(), std::size_t{1});
   scene.shading = std::move(shadings.front());
   scene.shader_file = options.shading.shader;
   if (!scene.shader_file.empty()) scene.outputs = machines.outputs(scene.shading.source);
@@ -62,6 +63,13 @@ FrameOutput find_output(const GoldenScene& scene, const GoldenEntry& entry) {
   for (const FrameOutput& output : scene.outputs)
     if (output.name == entry.output) return output;
   throw UserError(scene.shading.label() + ": the shader has no output " + entry.output + " any more");
+}
+
+void require_folder_name(const std::string& folder) {
+  if (folder.empty()) throw UserError("'': the folder's name is empty");
+  std::error_code code;
+  if (fs::path(folder).filename() == kManifestName && fs::is_regular_file(folder, code))
+    throw UserError(folder + ": name the folder that it lies in");
 }
 
 GoldenImage read_golden_image(const std::string& folder, const GoldenEntry& entry) {
@@ -111,7 +119,8 @@ void hold_to_image(GoldenRow& row, const Frame& image, const Frame& frame, std::
   const bool same_surface = shown.coverage_differs == 0 && shown.id_differs == 0;
   if (same_surface && inputs) {
     const Frame captured = inputs();
-    shown = compare_frames(with_inputs(image, captured), with_inputs(frame, captured));
+    if (!captured.attribute_names.empty())
+      shown = compare_frames(with_inputs(image, captured), with_inputs(frame, captured));
   }
   row.first_difference = difference_json(shown.first, image);
   row.description = describe_mismatch(row.name, "golden", row.on, shown, image);

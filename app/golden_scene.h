@@ -30,6 +30,9 @@ GoldenScene load_golden_scene(const GoldenDrawing& drawing, const std::string& f
 // The output that an entry's frame is of. UserError where the shader has it no more.
 FrameOutput find_output(const GoldenScene& scene, const GoldenEntry& entry);
 
+// UserError where the name of a manifest's folder is empty, or that of the manifest itself.
+void require_folder_name(const std::string& folder);
+
 // An entry's image, or why there is none.
 struct GoldenImage {
   std::optional<Frame> frame;
@@ -39,7 +42,8 @@ struct GoldenImage {
 GoldenImage read_golden_image(const std::string& folder, const GoldenEntry& entry);
 
 // Holds a frame to the entry's image and fills in what the row says of their differences. ulp: what is let pass.
-// inputs: the frame again with its attributes captured, to name the shader's inputs; asked for where it helps.
+// inputs: the frame again with its attributes captured, to name the shader's inputs; asked for where it helps, and may
+// be without.
 void hold_to_image(GoldenRow& row, const Frame& image, const Frame& frame, std::uint64_t ulp,
                    const std::function<Frame()>& inputs);
 

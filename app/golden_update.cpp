@@ -152,6 +152,8 @@ class GoldenUpdateRun {
 
     GoldenRow row;
     row.folder = verb_.folder, row.name = entry.name, row.frame = entry.frame;
+    for (const GoldenRow& other : rows_)
+      if (other.name == row.name) throw UserError("two frames would be named " + row.name + ": draw them one by one");
     row.result = GoldenResult::added;
     const std::string path = golden_image_path(verb_.folder, entry.name);
     if (const GoldenEntry* before = manifest_.find(entry.name))
@@ -230,6 +232,9 @@ class GoldenUpdateRun {
     for (const GoldenRow& row : rows_) {
       text += table.line(update_cells(row));
       if (row.result == GoldenResult::failed) failures += failure_text(row);
+      const GoldenChanges& c = row.changes;
+      if (row.result == GoldenResult::changed && !c.drawing && !c.bundle && !c.shader)
+        failures += row.name + ": " + cause(row) + '\n';
       entries.push_back(golden_json(row));
     }
     for (const std::string& reason : skipped_) text += "skipped " + reason + '\n';
@@ -252,6 +257,8 @@ class GoldenUpdateRun {
 
 int GoldenUpdateVerb::run() const {
   apply(options.common);
+  require_folder_name(folder);
+  if (command->get_option("--only")->count() > 0 && only.empty()) throw UserError("--only '': the pattern is empty");
   Output output(options.common, {}, folder);
   return GoldenUpdateRun(*this, output).run();
 }

@@ -57,7 +57,7 @@ class GoldenCheckRun {
   GoldenCheckRun(const GoldenCheckVerb& verb, Output& output)
       : verb_(verb),
         output_(output),
-        silent_options_(silent(verb.common)),
+        silent_options_(without_results(verb.common)),
         silent_(silent_options_),
         machines_(verb.cpu, verb.host_fma),
         provenance_(verb.common) {}
@@ -75,16 +75,25 @@ class GoldenCheckRun {
   }
 
  private:
-  static CommonOptions silent(CommonOptions common) {
-    common.quiet = true;
-    common.json.clear();
-    return common;
-  }
-
   std::vector<GoldenEntry> chosen(const std::string& folder) {
     const GoldenManifest manifest = read_manifest(folder);
     for (const GoldenEntry& entry : manifest.entries) known_.push_back(entry.name);
+    if (verb_.only.empty()) note_strays(manifest);
     return chosen_entries(manifest, verb_.only, false);
+  }
+
+  // What a merge may have dropped from the manifest.
+  void note_strays(const GoldenManifest& manifest) const {
+    std::vector<std::string> strays;
+    std::error_code code;
+    for (auto at = fs::directory_iterator(manifest.folder, code); !code && at != fs::end(at); at.increment(code)) {
+      const std::string name = at->path().stem().string();
+      const auto is_it = [&](const GoldenEntry& entry) { return entry.name == name; };
+      if (at->path().extension() == ".exr" && std::none_of(manifest.entries.begin(), manifest.entries.end(), is_it))
+        strays.push_back(at->path().string());
+    }
+    std::sort(strays.begin(), strays.end());
+    for (const std::string& path : strays) output_.note(path + ": belongs to no entry of the manifest");
   }
 
   void require_entries() const {
@@ -104,19 +113,12 @@ class GoldenCheckRun {
                         ", whose pictures would have one name: check one folder at a time");
       read.push_back(manifest_path(folder));
       read.push_back(golden_image_path(folder, entry.name));
-      try {
-        const DrawingOptions options = parse_drawing(entry.drawing, folder);
-        for (std::string& file : files_read(options.subject, options.shading)) read.push_back(std::move(file));
-      } catch (const UserError&) {  // told where it is drawn
-      }
       for (const std::string& on : verb_.backends)
         for (std::string& name : PictureNames(entry.name, on).all()) written.push_back(std::move(name));
     }
-    if (!verb_.pictures.empty()) output_.claim(written);
+    if (!verb_.pictures.empty()) output_.claim(std::move(written));
     output_.require_not_read(read);
-    if (verb_.pictures.empty()) return;
-    require_writable_folder(verb_.pictures);
-    remove_pictures(written);
+    if (!verb_.pictures.empty()) require_writable_folder(verb_.pictures);
   }
 
   void check(const std::string& folder, const GoldenEntry& entry) {
@@ -133,13 +135,15 @@ class GoldenCheckRun {
     } catch (const UserError& error) {
       failure = error.what();
     }
+    if (scene) output_.require_not_read(scene->files);
+    remove_pictures(entry.name);
     std::vector<GoldenRow> rows;
     for (const std::string& on : verb_.backends) {
       GoldenRow row;
       row.folder = folder, row.name = entry.name, row.on = on, row.golden_frame = entry.frame;
       row.ulp = verb_.ulp;
+      row.shader_file = shader_path(entry.drawing, folder);
       if (failure.empty()) {
-        row.shader_file = scene->shader_file;
         row.changes.bundle = scene->bundle_hash != entry.bundle;
         row.changes.shader = scene->shader_hash != entry.shader;
         hold(row, *scene, output, image, rows);
@@ -214,12 +218,14 @@ class GoldenCheckRun {
   }
 
   // An earlier run's would stay beside frames that are the same now.
-  void remove_pictures(const std::vector<std::string>& names) const {
-    for (const std::string& name : names) {
-      std::error_code code;
-      fs::remove(output_.claimed(name), code);
-      if (code) throw UserError(output_.claimed(name) + ": cannot be removed: " + code.message());
-    }
+  void remove_pictures(const std::string& entry) const {
+    if (verb_.pictures.empty()) return;
+    for (const std::string& on : verb_.backends)
+      for (const std::string& name : PictureNames(entry, on).all()) {
+        std::error_code code;
+        fs::remove(output_.claimed(name), code);
+        if (code) throw UserError(output_.claimed(name) + ": cannot be removed: " + code.message());
+      }
   }
 
   void write_pictures(const GoldenRow& row, const Frame& image, const Frame& frame) const {

@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kScene = "scene";
 constexpr const char* kTechnique = "technique";
+constexpr const char* kShader = "shader";
 constexpr const char* kMap = "map";
 constexpr const char* kLight = "light";
 
@@ -49,7 +50,7 @@ bool is_path(const std::string& key, const std::string& value) {
   };
   if (key == kScene) return none_of(scene_names());
   if (key == "env" || key == "env2") return none_of(environment_names());
-  return key == "shader" || (key == "include" && value.rfind("builtin:", 0) != 0);
+  return key == kShader || (key == "include" && value.rfind("builtin:", 0) != 0);
 }
 
 // A path as seen from `folder`. Without a look at links where that leads to the same file: the folder may move with all
@@ -126,6 +127,12 @@ GoldenDrawing given_drawing(const CLI::App& command, const std::string& folder) 
   return drawing;
 }
 
+std::string shader_path(const GoldenDrawing& drawing, const std::string& folder) {
+  for (const auto& [key, values] : drawing)
+    if (key == kShader && values.size() == 1) return seen_from_here(folder, values.front());
+  return "";
+}
+
 DrawingOptions parse_drawing(const GoldenDrawing& drawing, const std::string& folder) {
   DrawingOptions options;
   CLI::App command;
@@ -140,6 +147,7 @@ DrawingOptions parse_drawing(const GoldenDrawing& drawing, const std::string& fo
     const std::vector<std::string>& keys = drawing_keys();
     if (std::find(keys.begin(), keys.end(), key) == keys.end())
       throw UserError("\"draw\": " + unknown_name_message("option", key, keys));
+    if (key == kScene && values.size() != 1) throw UserError("\"draw\": \"scene\" must be one text");
     for (const std::string& value : values) {
       if (value.empty()) throw UserError("\"draw\": \"" + key + "\" is empty");
       const std::string seen = is_path(key, value) ? seen_from_here(folder, value) : value;

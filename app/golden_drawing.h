@@ -22,6 +22,9 @@ void add_drawing_options(CLI::App& command, DrawingOptions& options);
 // Those of them, and --seed, that were given to a parsed command. UserError where a path is no UTF-8.
 GoldenDrawing given_drawing(const CLI::App& command, const std::string& folder);
 
+// The user's shader that is drawn with, as seen from the current folder; empty where there is none.
+std::string shader_path(const GoldenDrawing& drawing, const std::string& folder);
+
 // UserError where the options are not known or not valid.
 DrawingOptions parse_drawing(const GoldenDrawing& drawing, const std::string& folder);
 

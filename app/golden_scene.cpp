@@ -53,6 +53,8 @@ GoldenScene load_golden_scene(const GoldenDrawing& drawing, const std::string& f
   scene.shader_file = options.shading.shader;
   if (!scene.shader_file.empty()) scene.outputs = machines.outputs(scene.shading.source);
   if (scene.outputs.empty()) scene.outputs.emplace_back();
+  scene.files = files_read(options.subject, options.shading);
+  if (inputs.scene) scene.files.insert(scene.files.end(), inputs.scene->files.begin(), inputs.scene->files.end());
   scene.bundle_hash = content_hash(scene.subject.bundle);
   scene.shader_hash = content_hash(scene.shading.source);
   return scene;
@@ -63,6 +65,12 @@ FrameOutput find_output(const GoldenScene& scene, const GoldenEntry& entry) {
   for (const FrameOutput& output : scene.outputs)
     if (output.name == entry.output) return output;
   throw UserError(scene.shading.label() + ": the shader has no output " + entry.output + " any more");
+}
+
+CommonOptions without_results(CommonOptions options) {
+  options.quiet = true;
+  options.json.clear();
+  return options;
 }
 
 void require_folder_name(const std::string& folder) {

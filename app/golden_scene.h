@@ -20,6 +20,7 @@ struct GoldenScene {
   std::string shader_file;           // of a user's shader, else empty
   std::vector<FrameOutput> outputs;  // by location; a frame holds one
   std::string bundle_hash, shader_hash;
+  std::vector<std::string> files;  // that all of it was read from
 };
 
 // Loads, lights and bakes what one entry is drawn from: alone, so that it does not depend on which others there are.
@@ -29,6 +30,9 @@ GoldenScene load_golden_scene(const GoldenDrawing& drawing, const std::string& f
 
 // The output that an entry's frame is of. UserError where the shader has it no more.
 FrameOutput find_output(const GoldenScene& scene, const GoldenEntry& entry);
+
+// Of an Output that writes nothing: for what entries have in common, which is said once.
+CommonOptions without_results(CommonOptions options);
 
 // UserError where the name of a manifest's folder is empty, or that of the manifest itself.
 void require_folder_name(const std::string& folder);

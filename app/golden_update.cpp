@@ -39,7 +39,7 @@ class GoldenUpdateRun {
   GoldenUpdateRun(const GoldenUpdateVerb& verb, Output& output)
       : verb_(verb),
         output_(output),
-        silent_options_(silent(verb.options.common)),
+        silent_options_(without_results(verb.options.common)),
         silent_(silent_options_),
         machines_(CpuOptions(), true),
         provenance_(verb.options.common) {}
@@ -47,13 +47,15 @@ class GoldenUpdateRun {
   int run() {
     jobs_ = jobs();
     claim();
-    for (std::size_t i = 0; i < jobs_.size(); ++i) {
-      output_.progress(fmt::format("drawing {} of {}", i + 1, jobs_.size()));
+    for (const GoldenJob& job : jobs_) {
+      output_.progress(fmt::format("drawing {} of {}", &job - jobs_.data() + 1, jobs_.size()));
+      std::vector<Drawn> drawn;
       try {
-        draw(jobs_[i], i == 0);
+        drawn = draw(job);
       } catch (const std::runtime_error& error) {  // UserError, BackendError: the others go on
-        fail(jobs_[i], error.what());
+        fail(job, error.what());
       }
+      for (Drawn& each : drawn) keep(std::move(each));
     }
     report();
     const auto failed = [](const GoldenRow& row) { return row.result == GoldenResult::failed; };
@@ -61,11 +63,11 @@ class GoldenUpdateRun {
   }
 
  private:
-  static CommonOptions silent(CommonOptions common) {
-    common.quiet = true;
-    common.json.clear();
-    return common;
-  }
+  struct Drawn {
+    GoldenEntry entry;
+    Frame frame;
+    std::vector<std::string> files;  // that it was drawn from
+  };
 
   std::vector<GoldenJob> jobs() {
     std::error_code code;
@@ -91,7 +93,6 @@ class GoldenUpdateRun {
     if (!verb_.name.empty() && !is_golden_name(verb_.name))
       throw UserError("--name " + verb_.name +
                       ": a name is made of letters, digits and ._+- and begins with none of .+-, at most 200 long");
-    output_.require_not_read(files_read(verb_.options.subject, verb_.options.shading));
     for (GoldenDrawing& single : single_drawings(given, verb_.options.shading)) list.push_back({std::move(single)});
     return list;
   }
@@ -103,24 +104,34 @@ class GoldenUpdateRun {
     output_.claim(std::move(names));
   }
 
-  void draw(const GoldenJob& job, bool first) {
+  std::vector<Drawn> draw(const GoldenJob& job) {
     // What is said of a scene is said once; of an entry, when it was added.
-    const Output& of_scene = first && !job.entry ? output_ : silent_;
+    const Output& of_scene = &job == &jobs_.front() && !job.entry ? output_ : silent_;
     const GoldenScene scene =
         load_golden_scene(job.drawing, verb_.folder, verb_.options.common, of_scene, machines_, inputs_);
     provenance_.add(scene.shading);
-    if (job.entry) {
-      keep(scene, find_output(scene, *job.entry), *job.entry);
-      return;
-    }
-    note_dialect(scene);
-    for (const FrameOutput& output : scene.outputs) {
+    if (!job.entry) note_dialect(scene);
+    std::vector<Drawn> drawn;
+    for (const FrameOutput& output :
+         job.entry ? std::vector<FrameOutput>{find_output(scene, *job.entry)} : scene.outputs) {
       GoldenEntry entry;
-      entry.name = name_of(scene, output);
-      entry.drawing = job.drawing;
-      if (scene.outputs.size() > 1) entry.output = output.name;
-      keep(scene, output, std::move(entry));
+      if (job.entry) {
+        entry = *job.entry;
+      } else {
+        entry.name = name_of(scene, output);
+        entry.drawing = job.drawing;
+        if (scene.outputs.size() > 1) entry.output = output.name;
+      }
+      DrawOptions options;
+      options.output = output.location;
+      Frame frame = machines_.draw("cpu", scene.subject.bundle, scene.shading.source, options);
+      provenance_.add("cpu", frame);
+      entry.width = frame.width, entry.height = frame.height;
+      entry.frame = frame_hash(frame);
+      entry.bundle = scene.bundle_hash, entry.shader = scene.shader_hash;
+      drawn.push_back({std::move(entry), std::move(frame), scene.files});
     }
+    return drawn;
   }
 
   void note_dialect(const GoldenScene& scene) {
@@ -140,16 +151,10 @@ class GoldenUpdateRun {
     return golden_name(name);
   }
 
-  // Draws the entry, and writes its image and the manifest where they are not what they were.
-  void keep(const GoldenScene& scene, const FrameOutput& output, GoldenEntry entry) {
-    DrawOptions options;
-    options.output = output.location;
-    const Frame frame = machines_.draw("cpu", scene.subject.bundle, scene.shading.source, options);
-    provenance_.add("cpu", frame);
-    entry.width = frame.width, entry.height = frame.height;
-    entry.frame = frame_hash(frame);
-    entry.bundle = scene.bundle_hash, entry.shader = scene.shader_hash;
-
+  // Writes the image and the manifest where they are not what they were.
+  void keep(Drawn drawn) {
+    output_.require_not_read(drawn.files);
+    GoldenEntry& entry = drawn.entry;
     GoldenRow row;
     row.folder = verb_.folder, row.name = entry.name, row.frame = entry.frame;
     for (const GoldenRow& other : rows_)
@@ -157,12 +162,12 @@ class GoldenUpdateRun {
     row.result = GoldenResult::added;
     const std::string path = golden_image_path(verb_.folder, entry.name);
     if (const GoldenEntry* before = manifest_.find(entry.name))
-      compare_with(row, *before, entry, frame);
+      compare_with(row, *before, entry, drawn.frame);
     else
       require_no_other_file(path);
     if (row.result != GoldenResult::same) {
       make_folder(verb_.folder);
-      write_frame_file(path, frame);
+      write_frame_file(path, drawn.frame);
       row.written = path;
     }
     rows_.push_back(std::move(row));

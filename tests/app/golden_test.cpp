@@ -345,10 +345,15 @@ TEST_CASE("golden refuses what it cannot do in one line, and writes nothing") {
   check_golden_refused(run_twinshade({"golden", "check", goldens, "--junit", goldens + "/quad.h4.exr"}),
                        "it would replace");
   check_golden_refused(run_twinshade({"golden", "update", goldens, "--json", goldens + "/golden.json"}), "writes it");
+  REQUIRE(update(folder / "own", {"--shader", shader, "--name", "own"}).code == 0);
+  check_golden_refused(run_twinshade({"golden", "check", folder / "own", "--json", shader}), "it would replace");
+  check_golden_refused(run_twinshade({"golden", "update", folder / "own", "--json", shader}), "it would replace");
+  CHECK(golden_bytes(shader) == kGoldenShader);
   check_golden_refused(check(goldens, {goldens, "-o", folder / "out"}), "two folders have an entry");
   std::ofstream(goldens + "/quad.lightmap.exr") << "a picture of mine";
   check_golden_refused(update(goldens, {"--technique", "lightmap"}), "is no golden image");
   CHECK(golden_bytes(goldens + "/quad.lightmap.exr") == "a picture of mine");
+  CHECK(check(goldens).err.find("quad.lightmap.exr: belongs to no entry") != std::string::npos);
   CHECK(golden_bytes(goldens + "/golden.json") == manifest);
   std::ofstream(goldens + "/golden.json") << manifest.substr(0, manifest.size() / 2);
   check_golden_refused(check(goldens), "parse error");

@@ -125,6 +125,11 @@ TEST_CASE("what is no frame is refused by name, with the reason") {
   const std::vector<float> grey(4, 0.5f);
   write_image_file(folder.name("picture.exr"), {2, 2, 1, true, grey.data(), 8, {}});
   CHECK_THROWS_WITH_AS(read_frame_file(folder.name("picture.exr")), doctest::Contains("not a frame"), UserError);
+  const auto out = OIIO::ImageOutput::create(folder.name("half.exr"));
+  REQUIRE(out->open(folder.name("half.exr"), OIIO::ImageSpec(2, 2, 1, OIIO::TypeDesc::HALF)));
+  REQUIRE(out->write_image(OIIO::TypeDesc::FLOAT, grey.data()));
+  REQUIRE(out->close());
+  CHECK_THROWS_WITH_AS(read_frame_file(folder.name("half.exr")), doctest::Contains("not of 32 bits"), UserError);
   CHECK_THROWS_AS(read_frame_file(folder.name("missing.exr")), UserError);
   CHECK_THROWS_AS(write_frame_file("/nonexistent/a.exr", any_frame(4, 4, Scalar::f32)), UserError);
 }

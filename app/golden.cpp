@@ -1,5 +1,5 @@
 // golden: reference images, kept with a manifest under version control, and frames held to them.
-#include "app/golden.h"
+#include "app/golden/verbs.h"
 
 #include <CLI/CLI.hpp>
 

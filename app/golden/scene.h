@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app/golden_drawing.h"
-#include "app/golden_report.h"
+#include "app/golden/drawing.h"
+#include "app/golden/report.h"
 #include "app/machines.h"
 #include "app/output.h"
 #include "app/subject.h"

@@ -1,4 +1,4 @@
-#include "app/golden_drawing.h"
+#include "app/golden/drawing.h"
 
 #include <CLI/CLI.hpp>
 

@@ -1,4 +1,4 @@
-#include "app/golden_scene.h"
+#include "app/golden/scene.h"
 
 #include <fmt/format.h>
 #include <fnmatch.h>

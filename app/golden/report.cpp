@@ -1,4 +1,4 @@
-#include "app/golden_report.h"
+#include "app/golden/report.h"
 
 #include <fmt/format.h>
 

@@ -11,10 +11,10 @@
 #include <set>
 
 #include "app/dialect.h"
-#include "app/golden.h"
-#include "app/golden_drawing.h"
-#include "app/golden_report.h"
-#include "app/golden_scene.h"
+#include "app/golden/drawing.h"
+#include "app/golden/report.h"
+#include "app/golden/scene.h"
+#include "app/golden/verbs.h"
 #include "app/provenance.h"
 #include "base/error.h"
 #include "base/names.h"

@@ -181,6 +181,24 @@ Bundle bundle_from_file(const SubjectOptions& options) {
   return read_bundle(options.scene);
 }
 
+Subject subject_from_file(const SubjectOptions& options, const ShadingOptions& shading) {
+  Subject subject;
+  subject.bundle = bundle_from_file(options);
+  if (!shading.shader.empty()) return subject;
+  choose(
+      subject, chosen_techniques(shading), shading,
+      [&](const TechniqueInfo& technique, CoefficientStorage storage) {
+        return has_coefficients(subject.bundle, technique, storage);
+      },
+      [&](const TechniqueInfo& technique, const std::vector<CoefficientStorage>& storages) {
+        std::vector<std::string_view> places(storages.size());
+        std::transform(storages.begin(), storages.end(), places.begin(), storage_words);
+        return fmt::format("{} has nothing for it in {}; bake it again with --technique {}", options.scene,
+                           fmt::join(places, " or "), technique.name);
+      });
+  return subject;
+}
+
 // Whether the shader of a technique reads coefficients at all.
 bool reads_coefficients(const LitTechnique& lit) {
   return lit.technique->is_basis ||
@@ -221,11 +239,9 @@ void add_visibility(Bundle& bundle, const SubjectOptions& options, const Shading
   add_visibility(bundle, scene, bakes, environment_radiance(environment, 6), baked, lighting);
 }
 
-Bundle bundle_from_scene(const SubjectOptions& options, const ShadingOptions& shading, const Scene& scene,
-                         const Environment& environment, const std::vector<LitTechnique>& baked,
-                         const CommonOptions& common, const Output& output) {
-  if (!environment.note.empty()) output.note(environment.note);
-
+Bundle bundle_from_scene(const SubjectOptions& options, const ShadingOptions& shading, const LitScene& lit_scene,
+                         const std::vector<LitTechnique>& baked, const CommonOptions& common, const Output& output) {
+  const auto& [scene, environment] = lit_scene;
   BakeOptions bake;
   bake.lightmap_size = options.lightmap_size;
   bake.rays = options.rays;
@@ -254,23 +270,6 @@ constexpr std::uint32_t kFewRows = 32;
 
 Environment load_refined(const std::string& name, bool clamp_radiance) {
   return refine_small_environment(load_environment(name, clamp_radiance), kFewRows);
-}
-
-// The scene that the options name, from `inputs` where it is there.
-std::shared_ptr<const Scene> scene_of(const SubjectOptions& options, SubjectInputs& inputs) {
-  const std::string key = fmt::format("{} {} {}", options.triangles, options.camera.has_value(), options.scene);
-  if (!inputs.scene || inputs.scene_key != key)
-    inputs.scene = std::make_shared<const Scene>(load_scene(options.scene, options.triangles, !options.camera));
-  inputs.scene_key = key;
-  return inputs.scene;
-}
-
-std::shared_ptr<const Environment> light_of(const SubjectOptions& options, SubjectInputs& inputs) {
-  const std::string key = fmt::format("{} {} {} {}\n{}", options.rotation_degrees, options.blend,
-                                      options.clamp_radiance, options.environment, options.second_environment);
-  if (!inputs.light || inputs.light_key != key) inputs.light = std::make_shared<const Environment>(load_light(options));
-  inputs.light_key = key;
-  return inputs.light;
 }
 
 }  // namespace
@@ -351,52 +350,78 @@ std::vector<std::string> files_read(const SubjectOptions& options, const Shading
   return files;
 }
 
-Subject load_subject(const SubjectOptions& options, const ShadingOptions& shading, const CommonOptions& common,
-                     const Output& output, const std::string& written, SubjectInputs* inputs) {
-  // Names and shaders are checked before anything that takes long.
-  const bool own_shader = !shading.shader.empty();
-  const ShaderSource source = own_shader ? load_fragment_shader(shading.shader, shading.source) : ShaderSource();
-  const std::vector<const TechniqueInfo*> chosen =
-      own_shader ? std::vector<const TechniqueInfo*>() : chosen_techniques(shading);
+void require_known(const ShadingOptions& shading) {
+  if (!shading.shader.empty())
+    load_fragment_shader(shading.shader, shading.source);
+  else
+    chosen_techniques(shading);
   chosen_maps(shading);
+}
+
+LitScene load_lit_scene(const SubjectOptions& options, const Output& output, const std::string& written) {
+  require_frame_memory(options.width, options.height, "cpu");
+  require_scene_memory(options);
+  Scene scene = load_scene(options.scene, options.triangles, !options.camera);
+  output.require_not_read(scene.files, written);
+  note_scene(output, options, scene);
+  Environment environment = load_light(options);
+  if (!environment.note.empty()) output.note(environment.note);
+  return {std::move(scene), std::move(environment)};
+}
+
+Subject light_subject(const LitScene& lit, const SubjectOptions& options, const ShadingOptions& shading,
+                      const CommonOptions& common, const Output& output) {
   Subject subject;
-  if (is_bundle_file(options.scene)) {
-    subject.bundle = bundle_from_file(options);
+  std::vector<LitTechnique> baked;
+  if (shading.shader.empty()) {
     choose(
-        subject, chosen, shading,
+        subject, chosen_techniques(shading), shading,
         [&](const TechniqueInfo& technique, CoefficientStorage storage) {
-          return has_coefficients(subject.bundle, technique, storage);
+          return can_keep(lit.scene, technique, storage);
         },
-        [&](const TechniqueInfo& technique, const std::vector<CoefficientStorage>& storages) {
-          std::vector<std::string_view> places(storages.size());
-          std::transform(storages.begin(), storages.end(), places.begin(), storage_words);
-          return fmt::format("{} has nothing for it in {}; bake it again with --technique {}", options.scene,
-                             fmt::join(places, " or "), technique.name);
-        });
-  } else {
-    require_frame_memory(options.width, options.height, "cpu");
-    require_scene_memory(options);
-    SubjectInputs own;
-    const std::shared_ptr<const Scene> loaded = scene_of(options, inputs ? *inputs : own);
-    const Scene& scene = *loaded;
-    output.require_not_read(scene.files, written);
-    note_scene(output, options, scene);
-    choose(
-        subject, chosen, shading,
-        [&](const TechniqueInfo& technique, CoefficientStorage storage) { return can_keep(scene, technique, storage); },
         [&](const TechniqueInfo&, const std::vector<CoefficientStorage>& storages) {
           return options.scene + (storages.back() == CoefficientStorage::lightmap
                                       ? " has no lightmap; use --light vertex"
                                       : " has no surfaces in the world whose visibility could be baked");
         });
-    const std::vector<LitTechnique> baked =
-        own_shader ? coefficients_read(source.text, scene, shading.light) : subject.drawn;
-    if (own_shader) require_initial_values(source, baked);
-    require_lightmap_memory(options, baked);
-    require_vertex_memory(scene.positions.size(), baked);
-    subject.bundle =
-        bundle_from_scene(options, shading, scene, *light_of(options, inputs ? *inputs : own), baked, common, output);
+    baked = subject.drawn;
+  } else {
+    const ShaderSource source = load_fragment_shader(shading.shader, shading.source);
+    baked = coefficients_read(source.text, lit.scene, shading.light);
+    require_initial_values(source, baked);
   }
+  require_lightmap_memory(options, baked);
+  require_vertex_memory(lit.scene.positions.size(), baked);
+  subject.bundle = bundle_from_scene(options, shading, lit, baked, common, output);
+  return subject;
+}
+
+namespace {
+
+const LitScene& lit_scene_of(const SubjectOptions& options, const Output& output, const std::string& written,
+                             LastLitScene& last) {
+  const std::string key = fmt::format("{} {} {} {} {}\n{}\n{}\n{}", options.triangles, options.camera.has_value(),
+                                      options.rotation_degrees, options.blend, options.clamp_radiance, options.scene,
+                                      options.environment, options.second_environment);
+  if (last.lit && last.key == key) {
+    output.require_not_read(last.lit->scene.files, written);
+  } else {
+    last.lit = load_lit_scene(options, output, written);
+    last.key = key;
+  }
+  return *last.lit;
+}
+
+}  // namespace
+
+Subject load_subject(const SubjectOptions& options, const ShadingOptions& shading, const CommonOptions& common,
+                     const Output& output, const std::string& written, LastLitScene* last) {
+  require_known(shading);
+  LastLitScene own;
+  Subject subject =
+      is_bundle_file(options.scene)
+          ? subject_from_file(options, shading)
+          : light_subject(lit_scene_of(options, output, written, last ? *last : own), options, shading, common, output);
   if (wants_all(shading)) subject.skipped.emplace_back(kReferenceTechnique, kReferenceReason);
   subject.hash = bundle_hash(subject.bundle);
   return subject;

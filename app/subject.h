@@ -1,7 +1,7 @@
 // What is drawn, ready: a scene loaded, lit and baked, or a bundle file read.
 #pragma once
 
-#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,13 +20,6 @@ struct Subject {
   std::vector<LitTechnique> drawn;  // what to draw with, in registry order; none for a user's shader
   // With "all": techniques that cannot be lit as asked, and why.
   std::vector<std::pair<std::string, std::string>> skipped;
-};
-
-// What was read last, for subjects that follow one another and name the same: files are taken not to change meanwhile.
-struct SubjectInputs {
-  std::string scene_key, light_key;  // the options that they were read by
-  std::shared_ptr<const Scene> scene;
-  std::shared_ptr<const Environment> light;
 };
 
 // A fragment shader to draw with.
@@ -58,13 +51,36 @@ std::vector<std::string> files_among(std::vector<std::string> names, const std::
 // images and buffers that a model names (Scene::files has them). UserError where the shader is none.
 std::vector<std::string> files_read(const SubjectOptions& options, const ShadingOptions& shading);
 
+// A scene under its light: what bundles of any technique are made from.
+struct LitScene {
+  Scene scene;
+  Environment environment;
+};
+
+// What was loaded last, for subjects that follow one another and name the same: files are taken not to change
+// meanwhile.
+struct LastLitScene {
+  std::string key;  // the options that it was loaded by
+  std::optional<LitScene> lit;
+};
+
+// UserError where a technique, a map or the shader is none: to be asked before anything that takes long.
+void require_known(const ShadingOptions& shading);
+
+// Says aloud what the loaders had to say. UserError where the scene does not fit into memory, and where `written` or
+// what the output writes would replace a file that it is read from.
+LitScene load_lit_scene(const SubjectOptions& options, const Output& output, const std::string& written = {});
+// Bakes what the chosen techniques or the shader read, as load_subject does; its hash is left out, which takes long.
+Subject light_subject(const LitScene& lit, const SubjectOptions& options, const ShadingOptions& shading,
+                      const CommonOptions& common, const Output& output);
+
 // Loads, lights and bakes, or reads the bundle; says aloud what the loader had to say. The bundle carries the
 // coefficients of the chosen techniques as --light says, or, for a user's shader, those that it names
 // (coefficients_BASIS, volume_BASIS); nothing else is baked. UserError where a technique that was named cannot be lit
-// so, and where `written` or what the output writes would replace a file that the model is read from. inputs: what may
-// be used again, and is then replaced by what was read.
+// so, and where `written` or what the output writes would replace a file that the model is read from. last: what may
+// be used again, and is then replaced by what was loaded.
 Subject load_subject(const SubjectOptions& options, const ShadingOptions& shading, const CommonOptions& common,
-                     const Output& output, const std::string& written = {}, SubjectInputs* inputs = nullptr);
+                     const Output& output, const std::string& written = {}, LastLitScene* last = nullptr);
 
 // The environment, or the blend of two, rotated.
 Environment load_light(const SubjectOptions& options);

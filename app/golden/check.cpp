@@ -129,7 +129,7 @@ class GoldenCheckRun {
     FrameOutput output;
     std::string failure;
     try {
-      scene = load_golden_scene(entry.drawing, folder, verb_.common, silent_, machines_, inputs_);
+      scene = load_golden_scene(entry.drawing, folder, verb_.common, silent_, machines_, last_);
       output = find_output(*scene, entry);
       provenance_.add_shader(entry.name, scene->shader_hash);
     } catch (const UserError& error) {
@@ -269,7 +269,7 @@ class GoldenCheckRun {
   const CommonOptions silent_options_;
   const Output silent_;
   Machines machines_;
-  SubjectInputs inputs_;
+  LastLitScene last_;
   Provenance provenance_;
   std::vector<std::string> known_;                            // names of all entries
   std::vector<std::pair<std::string, GoldenEntry>> entries_;  // of a folder

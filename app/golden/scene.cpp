@@ -39,14 +39,14 @@ Frame with_inputs(Frame image, const Frame& frame) {
 }  // namespace
 
 GoldenScene load_golden_scene(const GoldenDrawing& drawing, const std::string& folder, const CommonOptions& common,
-                              const Output& output, Machines& machines, SubjectInputs& inputs) {
+                              const Output& output, Machines& machines, LastLitScene& last) {
   const DrawingOptions options = parse_drawing(drawing, folder);
   if (const std::size_t frames = single_drawings(drawing, options.shading).size(); frames != 1)
     throw UserError(fmt::format("\"draw\" is of {} frames: name one technique, one map, one light", frames));
   CommonOptions own = common;
   own.seed = options.common.seed;
   GoldenScene scene;
-  scene.subject = load_subject(options.subject, options.shading, own, output, {}, &inputs);
+  scene.subject = load_subject(options.subject, options.shading, own, output, {}, &last);
   std::vector<Shading> shadings = load_shadings(options.shading, scene.subject);
   TWINSHADE_CHECK_EQ(shadings.size(), std::size_t{1});
   scene.shading = std::move(shadings.front());
@@ -54,7 +54,7 @@ GoldenScene load_golden_scene(const GoldenDrawing& drawing, const std::string& f
   if (!scene.shader_file.empty()) scene.outputs = machines.outputs(scene.shading.source);
   if (scene.outputs.empty()) scene.outputs.emplace_back();
   scene.files = files_read(options.subject, options.shading);
-  if (inputs.scene) scene.files.insert(scene.files.end(), inputs.scene->files.begin(), inputs.scene->files.end());
+  if (last.lit) scene.files.insert(scene.files.end(), last.lit->scene.files.begin(), last.lit->scene.files.end());
   scene.bundle_hash = content_hash(scene.subject.bundle);
   scene.shader_hash = content_hash(scene.shading.source);
   return scene;

@@ -26,7 +26,7 @@ struct GoldenScene {
 // Loads, lights and bakes what one entry is drawn from: alone, so that it does not depend on which others there are.
 // inputs: as load_subject takes them. UserError where that cannot be done.
 GoldenScene load_golden_scene(const GoldenDrawing& drawing, const std::string& folder, const CommonOptions& common,
-                              const Output& output, Machines& machines, SubjectInputs& inputs);
+                              const Output& output, Machines& machines, LastLitScene& last);
 
 // The output that an entry's frame is of. UserError where the shader has it no more.
 FrameOutput find_output(const GoldenScene& scene, const GoldenEntry& entry);

@@ -108,7 +108,7 @@ class GoldenUpdateRun {
     // What is said of a scene is said once; of an entry, when it was added.
     const Output& of_scene = &job == &jobs_.front() && !job.entry ? output_ : silent_;
     const GoldenScene scene =
-        load_golden_scene(job.drawing, verb_.folder, verb_.options.common, of_scene, machines_, inputs_);
+        load_golden_scene(job.drawing, verb_.folder, verb_.options.common, of_scene, machines_, last_);
     provenance_.add(scene.shading);
     if (!job.entry) note_dialect(scene);
     std::vector<Drawn> drawn;
@@ -252,7 +252,7 @@ class GoldenUpdateRun {
   const CommonOptions silent_options_;
   const Output silent_;
   Machines machines_;
-  SubjectInputs inputs_;
+  LastLitScene last_;
   Provenance provenance_;
   GoldenManifest manifest_;
   std::vector<GoldenJob> jobs_;

@@ -1,0 +1,37 @@
+// The light that techniques are held to: what rays find at pixels of the frame.
+#pragma once
+
+#include "app/subject.h"
+#include "experiments/frame_error.h"
+
+namespace twinshade {
+
+struct TruthOptions {
+  std::uint64_t pixels = 16384, rays = 512;  // rays of each
+};
+
+// --pixels and --reference-rays.
+void add_truth_options(CLI::App& command, TruthOptions& options);
+
+// What a technique's light is compared with: visibility lets the environment's light through, nothing else.
+struct Truths {
+  Truth direct, bounced;
+  double noise = 0;  // of the second
+
+  const Truth& of(const TechniqueInfo& technique) const {
+    return technique.weights == VisibilityWeights::none ? bounced : direct;
+  }
+};
+
+// UserError where `scene` is a bundle's file: rays need a scene. verb: who traces.
+void require_traceable(const std::string& scene, const std::string& verb);
+
+// Pixels are drawn at random from what is visible, which `cpu` says how to draw. UserError where that is nothing.
+Truths trace_truths(const LitScene& lit, const SubjectOptions& subject, const TruthOptions& options,
+                    const CommonOptions& common, const CpuOptions& cpu, const Output& output);
+
+// What was compared, in a line.
+std::string truth_line(const SubjectOptions& subject, const TruthOptions& options, const Truths& truths);
+Json truth_json(const TruthOptions& options, const Truths& truths);
+
+}  // namespace twinshade

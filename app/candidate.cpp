@@ -23,19 +23,20 @@ bench::Way best_way(const CpuOptions& cpu) {
 
 }  // namespace
 
+bool shows_light(const TechniqueInfo& technique, const ShadingOptions& options, std::string& skipped) {
+  if (technique.shows == Shows::light) return true;
+  const std::string reason = "it shows what the rasterizer can do: there is no light to compare";
+  if (!wants_all(options)) throw UserError(fmt::format("technique {}: {}", technique.name, reason));
+  const std::string line = fmt::format("skipped {}: {}\n", technique.name, reason);
+  if (skipped.find(line) == std::string::npos) skipped += line;
+  return false;
+}
+
 std::vector<Candidate> light_candidates(const ShadingOptions& options, const Subject& subject, std::string& skipped) {
   std::vector<Candidate> list;
-  std::string said;
   for (Shading& shader : load_shadings(options, subject)) {
     const TechniqueInfo& technique = find_technique(shader.technique);
-    if (technique.shows == Shows::light) {
-      list.push_back({std::move(shader), &technique});
-      continue;
-    }
-    const std::string reason = "it shows what the rasterizer can do: there is no light to compare";
-    if (!wants_all(options)) throw UserError(fmt::format("technique {}: {}", technique.name, reason));
-    if (said != technique.name) skipped += fmt::format("skipped {}: {}\n", technique.name, reason);
-    said = technique.name;
+    if (shows_light(technique, options, skipped)) list.push_back({std::move(shader), &technique});
   }
   return list;
 }

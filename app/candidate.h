@@ -21,8 +21,11 @@ struct Candidate {
   double shade_ns() const { return timing.stage(bench::Stage::shade) * 1e6 / double(timing.shaded_pixels); }
 };
 
-// What to draw `subject` with. Techniques that show something else than light are left out, and `skipped` says so, a
-// line each; UserError where such a one was named.
+// Whether a technique's picture is of light, which can be compared. Where it is not, `skipped` says so in a line, once;
+// UserError where it was named.
+bool shows_light(const TechniqueInfo& technique, const ShadingOptions& options, std::string& skipped);
+
+// What to draw `subject` with, without those that shows_light refuses.
 std::vector<Candidate> light_candidates(const ShadingOptions& options, const Subject& subject, std::string& skipped);
 
 struct Turns {

@@ -38,6 +38,7 @@ Verb add_check(CLI::App& app);
 Verb add_bench(CLI::App& app);
 Verb add_experiment(CLI::App& app);
 Verb add_frontier(CLI::App& app);
+Verb add_choose(CLI::App& app);
 Verb add_stability(CLI::App& app);
 Verb add_eval(CLI::App& app);
 Verb add_golden(CLI::App& app);

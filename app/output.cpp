@@ -133,8 +133,9 @@ void Output::text(const std::string& text) const {
 }
 
 void Output::note(const std::string& line) const {
+  if (options_.quiet || !noted_.insert(line).second) return;
   clear_progress();
-  if (!options_.quiet) std::fprintf(stderr, "note: %s\n", one_line(line).c_str());
+  std::fprintf(stderr, "note: %s\n", one_line(line).c_str());
 }
 
 void Output::progress(const std::string& line) const {

@@ -33,7 +33,7 @@ class Output {
   // Refuses a file in `folder` with this ending: the next run would read it.
   void require_not_taken(const std::string& folder, const std::string& ending) const;
   void text(const std::string& text) const;  // a result, as is
-  void note(const std::string& line) const;  // "note: ..." on stderr, unless --quiet
+  void note(const std::string& line) const;  // "note: ..." on stderr, unless --quiet; each line once
   // What is being done, on stderr where that is a terminal, unless --quiet; the next output replaces it.
   void progress(const std::string& line) const;
   void json(const Json& json) const;  // to where --json says; nothing without it
@@ -55,6 +55,7 @@ class Output {
   const std::string folder_;        // -o; empty: none
   std::set<std::string> claimed_;   // names of files in it
   std::vector<std::string> links_;  // those that are links: what one leads to is replaced
+  mutable std::set<std::string> noted_;
   bool shows_progress_ = false;
   mutable bool progress_shown_ = false;
 };

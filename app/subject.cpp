@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <string_view>
@@ -12,6 +11,7 @@
 #include "app/memory_needed.h"
 #include "base/error.h"
 #include "base/names.h"
+#include "base/words.h"
 #include "bundle/uniform_text.h"
 #include "cpu_shaders/translate/source_lines.h"
 #include "cpu_shaders/translate/translate.h"
@@ -42,15 +42,6 @@ bool is_bundle_file(const std::string& path) {
   return looks_like_bundle({first, std::size_t(in.gcount())});
 }
 
-bool names(const std::string& text, const std::string& name) {
-  const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
-  for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
-    const std::size_t end = at + name.size();
-    if ((at == 0 || !is_word(text[at - 1])) && (end == text.size() || !is_word(text[end]))) return true;
-  }
-  return false;
-}
-
 // Where a scene's light can be kept. Nothing is gathered for lightmaps of procedural light.
 bool can_keep(const Scene& scene, CoefficientStorage storage) {
   return storage != CoefficientStorage::lightmap || (!scene.lightmap_uvs.empty() && !scene.procedural_coefficients);
@@ -63,26 +54,15 @@ bool can_keep(const Scene& scene, const TechniqueInfo& technique, CoefficientSto
   return can_keep(scene, storage) && !(stores_visibility(technique) && scene.procedural_coefficients);
 }
 
-// Registry order, each once. UserError with the nearest names.
-std::vector<const SphereMapInfo*> chosen_maps(const ShadingOptions& options) {
-  std::vector<const SphereMapInfo*> chosen;
-  for (const std::string& name : options.maps)
-    for (const SphereMapInfo& map : sphere_maps())
-      if (name == "all" || &map == &find_sphere_map(name)) chosen.push_back(&map);
-  std::sort(chosen.begin(), chosen.end());
-  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
-  return chosen;
-}
-
 // All "coefficients_X" and "volume_X" in a user's shader: what it wants baked.
 std::vector<LitTechnique> coefficients_read(const std::string& text, const Scene& scene, LightSource light) {
   const bool per_vertex = light == LightSource::vertex || !can_keep(scene, CoefficientStorage::lightmap);
   std::vector<LitTechnique> read;
   for (const TechniqueInfo& technique : techniques()) {
     const std::string name(technique.name);
-    if (names(text, "coefficients_" + name))
+    if (contains_word(text, "coefficients_" + name))
       read.push_back({&technique, per_vertex ? CoefficientStorage::vertex : CoefficientStorage::lightmap});
-    if (names(text, "volume_" + name)) read.push_back({&technique, CoefficientStorage::volume});
+    if (contains_word(text, "volume_" + name)) read.push_back({&technique, CoefficientStorage::volume});
   }
   return read;
 }
@@ -118,7 +98,7 @@ bool has_coefficients(const Bundle& bundle, const TechniqueInfo& technique, Coef
   }
   if (!technique.is_basis) {
     const std::string* note = bundle.find_note("coefficients");
-    return !note || note->empty() || names(*note, std::string(storage_name(storage)));
+    return !note || note->empty() || contains_word(*note, std::string(storage_name(storage)));
   }
   switch (storage) {
     case CoefficientStorage::lightmap:
@@ -334,6 +314,16 @@ std::vector<const TechniqueInfo*> chosen_techniques(const ShadingOptions& option
   return chosen;
 }
 
+std::vector<const SphereMapInfo*> chosen_maps(const ShadingOptions& options) {
+  std::vector<const SphereMapInfo*> chosen;
+  for (const std::string& name : options.maps)
+    for (const SphereMapInfo& map : sphere_maps())
+      if (name == "all" || &map == &find_sphere_map(name)) chosen.push_back(&map);
+  std::sort(chosen.begin(), chosen.end());
+  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+  return chosen;
+}
+
 std::vector<std::string> files_among(std::vector<std::string> names, const std::vector<std::string>& built_in) {
   std::erase_if(names, [&](const std::string& name) {
     return name.empty() || std::find(built_in.begin(), built_in.end(), name) != built_in.end();
@@ -369,21 +359,27 @@ LitScene load_lit_scene(const SubjectOptions& options, const Output& output, con
   return {std::move(scene), std::move(environment)};
 }
 
+Subject plan_subject(const LitScene& lit, const SubjectOptions& options, const ShadingOptions& shading) {
+  Subject subject;
+  choose(
+      subject, chosen_techniques(shading), shading,
+      [&](const TechniqueInfo& technique, CoefficientStorage storage) {
+        return can_keep(lit.scene, technique, storage);
+      },
+      [&](const TechniqueInfo&, const std::vector<CoefficientStorage>& storages) {
+        return options.scene + (storages.back() == CoefficientStorage::lightmap
+                                    ? " has no lightmap; use --light vertex"
+                                    : " has no surfaces in the world whose visibility could be baked");
+      });
+  return subject;
+}
+
 Subject light_subject(const LitScene& lit, const SubjectOptions& options, const ShadingOptions& shading,
                       const CommonOptions& common, const Output& output) {
   Subject subject;
   std::vector<LitTechnique> baked;
   if (shading.shader.empty()) {
-    choose(
-        subject, chosen_techniques(shading), shading,
-        [&](const TechniqueInfo& technique, CoefficientStorage storage) {
-          return can_keep(lit.scene, technique, storage);
-        },
-        [&](const TechniqueInfo&, const std::vector<CoefficientStorage>& storages) {
-          return options.scene + (storages.back() == CoefficientStorage::lightmap
-                                      ? " has no lightmap; use --light vertex"
-                                      : " has no surfaces in the world whose visibility could be baked");
-        });
+    subject = plan_subject(lit, options, shading);
     baked = subject.drawn;
   } else {
     const ShaderSource source = load_fragment_shader(shading.shader, shading.source);

@@ -45,6 +45,9 @@ bool wants_all(const ShadingOptions& options);
 // The techniques named; all of them that have shaders for "all". UserError with the nearest names.
 std::vector<const TechniqueInfo*> chosen_techniques(const ShadingOptions& options);
 
+// The sphere maps named, in registry order, each once. UserError with the nearest names.
+std::vector<const SphereMapInfo*> chosen_maps(const ShadingOptions& options);
+
 // The names that are neither empty nor built in: files.
 std::vector<std::string> files_among(std::vector<std::string> names, const std::vector<std::string>& built_in);
 // The files that these options name, and those that the shader includes: what is written must not replace them. Not the
@@ -70,6 +73,8 @@ void require_known(const ShadingOptions& shading);
 // Says aloud what the loaders had to say. UserError where the scene does not fit into memory, and where `written` or
 // what the output writes would replace a file that it is read from.
 LitScene load_lit_scene(const SubjectOptions& options, const Output& output, const std::string& written = {});
+// What of it the chosen techniques would be drawn from: a subject without a bundle. UserError as of load_subject.
+Subject plan_subject(const LitScene& lit, const SubjectOptions& options, const ShadingOptions& shading);
 // Bakes what the chosen techniques or the shader read, as load_subject does; its hash is left out, which takes long.
 Subject light_subject(const LitScene& lit, const SubjectOptions& options, const ShadingOptions& shading,
                       const CommonOptions& common, const Output& output);

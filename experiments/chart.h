@@ -57,7 +57,7 @@ struct ScatterChart {
   std::string title, subtitle;
   Axis x, y;
   struct Point {
-    std::string label;
+    std::string label;      // empty: it has no name
     double x = 0, y = 0;    // not shown where either is not finite, or not positive on a logarithmic axis
     std::size_t group = 0;  // of `groups`
   };
@@ -65,6 +65,8 @@ struct ScatterChart {
   std::vector<std::string> groups{};   // in the legend
   std::string line{};                  // what the line is, in the legend; empty: there is none
   std::vector<std::size_t> on_line{};  // points, in order; each is joined to the next by a step: right, then down
+  std::optional<double> limit{};       // a level of y, dashed, shown where the axis reaches it
+  std::string limit_label{};
   double width = 1000, height = 720;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/portable_math.h"
 
@@ -27,9 +28,9 @@ double nice_step(double range, bool whole) {
   return 10 * decade;
 }
 
-std::string logarithmic_label(int digit, int exponent) {
-  if (exponent >= -3 && exponent <= 4)
-    return fmt::format("{:.{}f}", digit * power_of_ten(exponent), std::max(0, -exponent));
+// scientific: 1e-4; of all labels of an axis or of none.
+std::string logarithmic_label(int digit, int exponent, bool scientific) {
+  if (!scientific) return fmt::format("{:.{}f}", digit * power_of_ten(exponent), std::max(0, -exponent));
   return fmt::format("{}e{}", digit, exponent);
 }
 
@@ -79,13 +80,21 @@ std::vector<Scale::Tick> Scale::ticks() const {
     const int first = int(std::floor(log10_of(low_) - 1e-9)), last = int(std::ceil(log10_of(high_) + 1e-9));
     const int every = std::max(1, (last - first) / 8);
     const bool few = log10_of(high_ / low_) < 2.5;  // decades: what lies between is read from twos and fives
+    std::vector<std::pair<int, int>> labels;        // digit and exponent of each tick; digit 0: none
+    bool scientific = false;                        // all labels of an axis have one form
     for (int exponent = first; exponent <= last; ++exponent)
       for (int digit = 1; digit <= 9; ++digit) {
         const double value = digit * power_of_ten(exponent);
         if (value < low_ * 0.999999 || value > high_ * 1.000001) continue;
         const bool labelled = digit == 1 ? (exponent - first) % every == 0 : few && (digit == 2 || digit == 5);
-        if (digit == 1 || every == 1) list.push_back({value, labelled ? logarithmic_label(digit, exponent) : ""});
+        if (digit != 1 && every != 1) continue;
+        list.push_back({value, ""});
+        labels.push_back({labelled ? digit : 0, exponent});
+        scientific = scientific || (labelled && (exponent < -3 || exponent > 5));
       }
+    for (std::size_t i = 0; i < list.size(); ++i)
+      if (const auto [digit, exponent] = labels[i]; digit > 0)
+        list[i].label = logarithmic_label(digit, exponent, scientific);
     return list;
   }
   const double step = nice_step(high_ - low_, whole_);

@@ -44,6 +44,9 @@ class Names {
                         std::max(line[i - 1].x, line[i].x) + 1, std::max(line[i - 1].y, line[i].y) + 1});
   }
 
+  // No name goes there.
+  void take(const Box& box) { taken_.push_back(box); }
+
   // The nearest free place of a name, no farther than `farthest`; none where there is none.
   std::optional<Box> place(Point at, double width, double farthest) {
     constexpr int kSpokes = 16;
@@ -104,7 +107,8 @@ std::vector<double> shown_values(const ScatterChart& chart, double ScatterChart:
 Drawing draw(const ScatterChart& chart) {
   const double left = 76, right = chart.width - 32, top = 92, bottom = chart.height - 56;
   const std::vector<double> values_x = shown_values(chart, &ScatterChart::Point::x);
-  const std::vector<double> values_y = shown_values(chart, &ScatterChart::Point::y);
+  std::vector<double> values_y = shown_values(chart, &ScatterChart::Point::y);
+  if (chart.limit) values_y.push_back(*chart.limit);
   const Scale x(snug(chart.x, values_x), values_x, left, right);
   const Scale y(snug(chart.y, values_y), values_y, bottom, top);
   Drawing drawing(chart.width, chart.height);
@@ -146,12 +150,30 @@ Drawing draw(const ScatterChart& chart) {
       order.push_back(i);
   for (const std::size_t i : order) dots.push_back(place_of(chart.points[i]));
   Names names({left + 2, top, right + 28, bottom - 2}, dots, steps);
+  if (chart.limit && y.shows(*chart.limit)) {
+    const double level = y.pixel(*chart.limit);
+    drawing.line({left, level}, {right, level}, {kInk, 1, {6, 4}});
+    // Above the line, at the end where fewer dots are in the way.
+    const double width = text_width(chart.limit_label, kLabelSize);
+    const Box ends[] = {{right - width - 2, level - 16, right, level}, {left, level - 16, left + width + 4, level}};
+    const auto hidden = [&](const Box& box) {
+      return std::count_if(dots.begin(), dots.end(), [&](Point dot) { return box.meets(around(dot, kDotRadius)); });
+    };
+    const Box& end = hidden(ends[1]) < hidden(ends[0]) ? ends[1] : ends[0];
+    drawing.text({end.left + 2, level - 4}, chart.limit_label, {.size = kLabelSize, .color = kInk});
+    names.take(end);
+  }
   struct Name {
     std::size_t point;
     Box box;
   };
   std::vector<Name> placed;
+  std::size_t unnamed = 0;
   for (std::size_t k = 0; k < order.size(); ++k) {
+    if (chart.points[order[k]].label.empty()) {
+      ++unnamed;
+      continue;
+    }
     const bool on_line = k < on_line_count;
     const double width = text_width(chart.points[order[k]].label, kNameSize) * (on_line ? 1.1 : 1);
     if (const auto box = names.place(dots[k], width, on_line ? 200 : 120)) placed.push_back({k, *box});
@@ -162,9 +184,8 @@ Drawing draw(const ScatterChart& chart) {
   }
   for (std::size_t k = order.size(); k-- > 0;)
     drawing.disc(dots[k], kDotRadius, series_color(chart.points[order[k]].group));
-  if (placed.size() < order.size())
-    drawing.text({left, bottom + 53}, std::to_string(order.size() - placed.size()) + " names have no room here",
-                 {.size = 11, .color = kFaint});
+  if (const std::size_t lost = order.size() - unnamed - placed.size(); lost > 0)
+    drawing.text({left, bottom + 53}, std::to_string(lost) + " names have no room here", {.size = 11, .color = kFaint});
   return drawing;
 }
 

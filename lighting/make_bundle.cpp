@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <cctype>
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/words.h"
 #include "lighting/bake.h"
 #include "lighting/camera.h"
 #include "lighting/material_textures.h"
@@ -14,15 +14,6 @@
 
 namespace twinshade {
 namespace {
-
-bool contains_word(const std::string& text, const std::string& word) {
-  const auto part_of_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
-  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
-    if ((at == 0 || !part_of_word(text[at - 1])) &&
-        (at + word.size() == text.size() || !part_of_word(text[at + word.size()])))
-      return true;
-  return false;
-}
 
 std::string coefficients_name(const TechniqueInfo& basis, CoefficientStorage storage) {
   return (storage == CoefficientStorage::volume ? "volume_" : "coefficients_") + std::string(basis.name);

@@ -19,6 +19,8 @@ struct SphereMapInfo {
   // away at 32, 3.7 where areas are equal.
   int usual_width() const { return layers == 1 ? 33 : 32; }
   bool has_axes(int width) const { return layers != 1 || width % 2 == 1; }
+  // The next smaller width to try: half of it, 1 at least; of an odd one again odd, for the axes' sake.
+  static int half(int width) { return width == 1 ? 1 : width / 2 | (width & 1); }
   int texels(int width) const { return layers * width * width; }
   // Its layers are the faces of an OpenGL cube map.
   bool is_cube() const { return layers == 6; }

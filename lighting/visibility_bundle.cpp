@@ -32,10 +32,6 @@ void add_attribute(Bundle& bundle, const char* name, const std::vector<Vector>& 
   bundle.attributes.push_back(std::move(out));
 }
 
-int width_of(const SphereMapInfo& map, const VisibilityLighting& options) {
-  return options.map_width == 0 ? map.usual_width() : options.map_width;
-}
-
 class Adder {
  public:
   Adder(Bundle& bundle, std::span<const VisibilityBake> bakes, std::span<const double> radiance,
@@ -120,7 +116,7 @@ class Adder {
       order = int(std::lround(std::sqrt(double(technique.count))));
       products = light_times_harmonics(radiance_, order);
     }
-    const int width = width_of(map, options_);
+    const int width = table_width(map, options_);
     const double bytes = double(products.size()) / double(square(order)) / 3 * map.texels(width) * 16;
     if (bytes > kMostTableBytes)
       throw UserError(fmt::format("map width {}: tables {} would take {:.1f} GiB, more than {:.0f}; make it smaller",
@@ -159,6 +155,12 @@ class Adder {
 
 }  // namespace
 
+int table_width(const SphereMapInfo& map, const VisibilityLighting& options) {
+  int width = options.map_width == 0 ? map.usual_width() : options.map_width;
+  for (int i = 0; i < options.map_halvings; ++i) width = SphereMapInfo::half(width);
+  return width;
+}
+
 void add_visibility(Bundle& bundle, const Scene& scene, std::span<const VisibilityBake> bakes,
                     std::span<const double> radiance, std::span<const LitTechnique> wanted,
                     const VisibilityLighting& options) {
@@ -182,7 +184,7 @@ void add_visibility(Bundle& bundle, const Scene& scene, std::span<const Visibili
       bundle.notes.emplace_back(fmt::format("{}_{}", storage_name(bake.storage), key), value);
   std::vector<std::string_view> maps;
   std::vector<int> widths;
-  for (const SphereMapInfo* map : options.maps) maps.push_back(map->name), widths.push_back(width_of(*map, options));
+  for (const SphereMapInfo* map : options.maps) maps.push_back(map->name), widths.push_back(table_width(*map, options));
   bundle.notes.emplace_back("maps", fmt::format("{}", fmt::join(maps, " ")));
   bundle.notes.emplace_back("map_width", fmt::format("{}", fmt::join(widths, " ")));
   bundle.notes.emplace_back("visibility_order", std::to_string(options.order));

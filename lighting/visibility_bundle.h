@@ -19,12 +19,16 @@ namespace twinshade {
 struct VisibilityLighting {
   std::vector<const SphereMapInfo*> maps;        // of the L x H tables: those that shaders will be drawn with
   int map_width = 0;                             // 1 to 4096; 0: each map's usual one
+  int map_halvings = 0;                          // how often that is halved (SphereMapInfo::half)
   int order = 6;                                 // of the visibility that components are taken of, 2 to 6
   PcaMetric metric = PcaMetric::surface;         // what its components are chosen for
   std::vector<double> metric_light;              // of PcaMetric::irradiance, as `radiance`; empty: that itself
   TexelStorage storage = TexelStorage::float32;  // of the weights
   TexturePacking packing = TexturePacking::layers;
 };
+
+// Of the tables on this map.
+int table_width(const SphereMapInfo& map, const VisibilityLighting& options);
 
 // Weights, tables and uniforms of those of `wanted` that store visibility, each from its storage; normals, tangents and
 // lightmap coordinates where the bundle lacks them; notes. bakes: one of each storage that is needed; the principal

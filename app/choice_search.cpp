@@ -109,7 +109,9 @@ std::set<ChoiceSearch::Key> ChoiceSearch::try_width(CoefficientStorage place, co
   if (place == CoefficientStorage::volume) shape.volume = at.volume;
   output_.progress(fmt::format("baking {} techniques for {} {}", shading.techniques.size(), storage_name(place),
                                place == CoefficientStorage::vertex ? "light" : shape.size()));
-  const Subject subject = light_subject(lit_, at, shading, common_, output_);
+  SubjectOptions bare = at;  // materials are drawn from bundle_
+  bare.albedo = bare.normal_map = false;
+  const Subject subject = light_subject(lit_, bare, shading, common_, output_);
   std::set<Key> within;
   for (Shading& shader : load_shadings(shading, subject)) {
     const Key key{shader.technique, shader.map};

@@ -25,16 +25,17 @@ void add_columns(StoredLight& light, std::size_t cells, std::size_t columns) {
   light.columns += columns;
 }
 
-// Comments name coefficients as examples.
-std::string without_comments(const std::string& text) {
+// Comments name coefficients as examples, and #line files that are called after them.
+std::string code_of(const std::string& text) {
   std::string code;
-  for (const SourceLine& line : scan_lines(text)) code += line.code + "\n";
+  for (const SourceLine& line : scan_lines(text))
+    if (line.directive != "line") code += line.code + "\n";
   return code;
 }
 
 // RGB of every basis whose coefficients the shader names.
 void add_coefficients(StoredLight& light, const Bundle& bundle, const LitTechnique& lit) {
-  const std::string code = without_comments(technique_source(*lit.technique, lit.storage).text);
+  const std::string code = code_of(technique_source(*lit.technique, lit.storage).text);
   const bool volume = lit.storage == CoefficientStorage::volume;
   const auto is_read = [&](const std::string& name) {
     return name.starts_with(volume ? "volume_" : "coefficients_") && contains_word(code, name);

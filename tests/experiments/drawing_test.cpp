@@ -50,6 +50,25 @@ TEST_CASE("text that is not UTF-8 is replaced, and what is drawn after it is see
   CHECK(drawn("caf\xe9").png() == drawn("caf\xef\xbf\xbd").png());
 }
 
+TEST_CASE("labels of a logarithmic axis have one form, and a level is named") {
+  ScatterChart chart;
+  chart.x = {"x", true};
+  chart.y = {"y", true};
+  chart.points = {{"low", 1e-5, 1}, {"", 0.5, 3}};
+  chart.groups = {"all"};
+  chart.limit = 2;
+  chart.limit_label = "as much as this";
+  const std::string small = draw(chart).svg();
+  CHECK(count(small, ">1e-3<") == 1);
+  CHECK(count(small, ">1e-5<") == 1);
+  CHECK(count(small, ">0.001<") == 0);
+  CHECK(count(small, ">as much as this<") == 1);
+  chart.points[0].x = 0.01;
+  const std::string usual = draw(chart).svg();
+  CHECK(count(usual, ">0.01<") == 1);
+  CHECK(count(usual, ">1e-2<") == 0);
+}
+
 TEST_CASE("an image in a drawing is a PNG within the SVG") {
   Drawing drawing(10, 10);
   drawing.image({0, 0}, 10, 10, {2, 1, {255, 0, 0, 0, 0, 255}});

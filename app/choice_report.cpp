@@ -72,7 +72,7 @@ Ranking rank(const SearchResult& found, Cost by) {
   const auto cost = [&](std::size_t i) {
     const Choice& choice = found.best[i];
     const double bytes = double(choice.bytes), ns = choice.shade_ns();
-    return by == Cost::memory ? std::tuple(bytes, ns, choice.error.rms) : std::tuple(ns, bytes, choice.error.rms);
+    return by == Cost::memory ? std::tuple(bytes, choice.error.rms, ns) : std::tuple(ns, bytes, choice.error.rms);
   };
   std::stable_sort(ranking.order.begin(), ranking.order.end(),
                    [&](std::size_t a, std::size_t b) { return cost(a) < cost(b); });

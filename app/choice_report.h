@@ -19,7 +19,7 @@ struct Ranking {
   std::vector<std::size_t> frontier;  // of those, which are not beaten in both memory and speed
 };
 
-// Fewest bytes, or fastest; of equal ones the other cost decides, then the error.
+// Fewest bytes, of equal ones the least error, so that clocks do not decide; or fastest.
 Ranking rank(const SearchResult& found, Cost by);
 
 // What is within the error, best first: the cheapest, and those that are cheaper by the other cost.

@@ -18,8 +18,7 @@
 namespace twinshade {
 namespace {
 
-// What of the options above is part of the choice, or of how it is made: not repeated in the command that draws it.
-constexpr const char* kChosen[] = {"--technique", "--light", "--lightmap", "--volume", "--map", "--map-width"};
+// Options that render has too, and that the choice does not set: repeated in the command that draws it.
 constexpr const char* kOfRender[] = {
     "--env",  "--env-rotation", "--clamp-radiance",  "--camera", "--triangles",  "--rays", "--probe-rays",
     "--env2", "--blend",        "--visibility-rays", "--albedo", "--normal-map", "--seed"};
@@ -150,6 +149,9 @@ int ChooseVerb::run() const {
   for (const auto& [technique, reason] : plan.skipped) skipped += fmt::format("skipped {}: {}\n", technique, reason);
   std::vector<LitTechnique> wanted = plan.drawn;
   std::erase_if(wanted, [&](const LitTechnique& at) { return !shows_light(*at.technique, shading, skipped); });
+  if (wanted.empty())
+    throw UserError(fmt::format("{}: no technique can be lit so: {}", subject.scene,
+                                plan.skipped.empty() ? "none shows light" : plan.skipped.front().second));
 
   const Truths truths = trace_truths(lit, subject, truth, common, cpu, output);
   ChoiceSearch search(lit, subject, shading, common, cpu, truths, output);

@@ -1,5 +1,5 @@
 // stability: where a method fails, how badly, with the input that shows it.
-#include "experiments/stability.h"
+#include "experiments/stability/stability.h"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>

@@ -8,8 +8,10 @@ const int SPHERE_MAP_LAYERS = 1;
 
 vec3 sphere_map_square(vec3 direction) {
   vec3 extent = abs(direction);
-  precise float cap = 1.0 - extent.z;
-  precise float radius = sqrt(mix(cap, 0.0, cap < 0.0));
+  // 1 - |z|, which next to the poles would leave nothing but the rounding of z.
+  precise float across = extent.x * extent.x + extent.y * extent.y;
+  precise float cap = across / (1.0 + extent.z);
+  precise float radius = sqrt(min(cap, 1.0));
   precise float turn = exact_atan2(extent.y, extent.x) * 0.636619772;  // 2/pi
   precise float y = radius * turn;
   precise float x = radius - y;

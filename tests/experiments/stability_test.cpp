@@ -1,5 +1,5 @@
 // Where methods fail: figures worked out independently, and properties of the inputs that are found.
-#include "experiments/stability.h"
+#include "experiments/stability/stability.h"
 
 #include <doctest/doctest.h>
 
@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "experiments/seams.h"
+#include "experiments/stability/seams.h"
 #include "lighting/projection.h"
 #include "lighting/quadrature.h"
 
@@ -159,6 +159,10 @@ TEST_CASE("a cube map that ends at each face's edge has seams, one that is filte
   CHECK(value(rows, "cube_dx9", "jump", "value") > 0.01);
   CHECK(rows.at(row_of(rows, "cube_dx9", "jump", "value"), "verdict") == Cell(std::string("poor")));
   CHECK(value(rows, "cube", "constant", "least") == doctest::Approx(1).epsilon(1e-6));
+}
+
+TEST_CASE("the equal-area octahedron has no steps next to the poles, where 1 - |z| is nothing but rounding") {
+  CHECK(value(measured({"octahedral_equal_area"}, {"jump"}), "octahedral_equal_area", "jump", "value") < 1e-4);
 }
 
 TEST_CASE("what is not linear in the light shows in blends, and where opposite suns leave no direction") {

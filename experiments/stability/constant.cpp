@@ -1,7 +1,7 @@
 // What comes back of constant radiance, whose irradiance is 1 for every normal.
 #include <cmath>
 
-#include "experiments/stability_test.h"
+#include "experiments/stability/test.h"
 
 namespace twinshade {
 namespace {

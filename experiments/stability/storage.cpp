@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/stability_test.h"
+#include "experiments/stability/test.h"
 #include "lighting/texel_storage.h"
 
 namespace twinshade {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "experiments/directions.h"
-#include "experiments/seams.h"
-#include "experiments/stability_test.h"
+#include "experiments/stability/seams.h"
+#include "experiments/stability/test.h"
 
 namespace twinshade {
 namespace {

@@ -1,4 +1,4 @@
-#include "experiments/stability_test.h"
+#include "experiments/stability/test.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "experiments/light_fit.h"
-#include "experiments/seams.h"
-#include "experiments/tricky_inputs.h"
+#include "experiments/stability/light_fit.h"
+#include "experiments/stability/seams.h"
+#include "experiments/stability/tricky_inputs.h"
 #include "lighting/irradiance_module.h"
 #include "lighting/sphere_map_grid.h"
 

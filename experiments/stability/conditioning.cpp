@@ -1,7 +1,7 @@
 // Conditioning: the condition number of the Gram matrix of a linear basis on its domain. A fit loses up to log10 of it
 // in digits, so in float (7 digits) coefficients of a badly conditioned basis are noise; they also grow large, of
 // opposite signs.
-#include "experiments/stability_test.h"
+#include "experiments/stability/test.h"
 #include "lighting/linear_bases.h"
 
 namespace twinshade {

@@ -1,7 +1,7 @@
 // Jumps and creases of irradiance over the normal, under suns. (Exact irradiance has a crease, too: at a sun's horizon
 // its slope changes by 1.)
-#include "experiments/seams.h"
-#include "experiments/stability_test.h"
+#include "experiments/stability/seams.h"
+#include "experiments/stability/test.h"
 
 namespace twinshade {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/stability_test.h"
+#include "experiments/stability/test.h"
 
 namespace twinshade {
 namespace {

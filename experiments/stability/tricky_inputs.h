@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/light_fit.h"
+#include "experiments/stability/light_fit.h"
 #include "lighting/registry.h"
 
 namespace twinshade {

@@ -1,4 +1,4 @@
-#include "experiments/light_fit.h"
+#include "experiments/stability/light_fit.h"
 
 #include <fmt/format.h>
 

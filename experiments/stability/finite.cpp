@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "experiments/stability_test.h"
+#include "experiments/stability/test.h"
 
 namespace twinshade {
 

@@ -1,4 +1,4 @@
-#include "experiments/tricky_inputs.h"
+#include "experiments/stability/tricky_inputs.h"
 
 #include <algorithm>
 #include <cmath>

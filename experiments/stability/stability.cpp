@@ -1,4 +1,4 @@
-#include "experiments/stability.h"
+#include "experiments/stability/stability.h"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,8 @@
 #include "base/error.h"
 #include "base/names.h"
 #include "base/parallel.h"
-#include "experiments/stability_chart.h"
-#include "experiments/stability_test.h"
+#include "experiments/stability/chart.h"
+#include "experiments/stability/test.h"
 
 namespace twinshade {
 namespace {

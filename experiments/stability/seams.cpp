@@ -1,4 +1,4 @@
-#include "experiments/seams.h"
+#include "experiments/stability/seams.h"
 
 #include <algorithm>
 #include <cmath>

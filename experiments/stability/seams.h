@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "experiments/tricky_inputs.h"
+#include "experiments/stability/tricky_inputs.h"
 
 namespace twinshade {
 

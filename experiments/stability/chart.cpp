@@ -1,4 +1,4 @@
-#include "experiments/stability_chart.h"
+#include "experiments/stability/chart.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "experiments/chart.h"
-#include "experiments/stability.h"
+#include "experiments/stability/stability.h"
 
 namespace twinshade {
 namespace {

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "experiments/directions.h"
-#include "experiments/stability_test.h"
+#include "experiments/stability/test.h"
 
 namespace twinshade {
 namespace {

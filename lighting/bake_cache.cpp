@@ -2,6 +2,7 @@
 // where the bake has it), SHA-256 of all before it as 64 hex digits. That hash is also the bake's.
 #include "lighting/bake_cache.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstdio>
 #include <cstring>
@@ -103,9 +104,10 @@ std::optional<LightBake> deserialize_bake(std::string_view bytes) {
   const char* from = mask + mask_bytes;
   for (std::size_t cell = 0; cell < cells; ++cell) {
     if (!stored(cell)) continue;
-    std::memcpy(reinterpret_cast<char*>(bake.sh.data()) + cell * sh_bytes, from, sh_bytes);
+    // Either may be empty, of which memcpy takes no address.
+    std::copy_n(from, sh_bytes, reinterpret_cast<char*>(bake.sh.data()) + cell * sh_bytes);
     from += sh_bytes;
-    std::memcpy(reinterpret_cast<char*>(bake.irradiance.data()) + cell * irradiance_bytes, from, irradiance_bytes);
+    std::copy_n(from, irradiance_bytes, reinterpret_cast<char*>(bake.irradiance.data()) + cell * irradiance_bytes);
     from += irradiance_bytes;
   }
   return bake;

@@ -28,8 +28,7 @@ cp /usr/lib/ISOLINUX/isolinux.bin /usr/lib/syslinux/modules/bios/ldlinux.c32 "$w
 cp /bin/busybox "$work/root/bin/"
 for file in "$@"; do
   cp -rL "$file" "$work/root/work/"
-  [ -f "$file" ] || continue
-  { ldd "$file" 2>/dev/null || true; } | grep -oE '/[^ ]+' | sort -u | while read -r library; do
+  for library in $([ ! -f "$file" ] || ldd "$file" 2>/dev/null | grep -oE '/[^ ]+'); do
     mkdir -p "$work/root$(dirname "$library")"
     cp -L "$library" "$work/root$library"
   done
@@ -47,6 +46,7 @@ cd /work
 echo "@begin"
 sh .command 2>&1
 echo "@end $?"
+sleep 60 # until what is above has gone through the serial line; whoever started the emulator stops it then
 poweroff -f
 INIT
 chmod +x "$work/root/init"

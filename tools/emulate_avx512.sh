@@ -44,8 +44,8 @@ export PATH=/bin HOME=/tmp
 grep -q avx512vl /proc/cpuinfo || echo "the emulated processor has no AVX-512"
 cd /work
 echo "@begin"
-sh .command 2>&1
-echo "@end $?"
+# Not to a terminal, where programs would show their progress.
+{ sh .command; echo "@end $?"; } 2>&1 | cat
 sleep 60 # until what is above has gone through the serial line; whoever started the emulator stops it then
 poweroff -f
 INIT

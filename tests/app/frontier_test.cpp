@@ -76,7 +76,8 @@ TEST_CASE("errors do not depend on the number of threads") {
     const Run run = frontier({"--technique", "h4,sh3", "--threads", threads, "--json", "-"});
     REQUIRE_MESSAGE(run.code == 0, run.err);
     std::string text;
-    for (const auto& row : run.json()["rows"]) text += row["error"].dump() + " " + row["worst"].dump() + "\n";
+    const auto json = run.json();
+    for (const auto& row : json["rows"]) text += row["error"].dump() + " " + row["worst"].dump() + "\n";
     return text;
   };
   CHECK(errors("1") == errors("2"));

@@ -78,8 +78,9 @@ TEST_CASE("what golden update kept golden check finds the same, on every backend
   const auto same = [&](const std::vector<std::string>& options) {
     const Run run = check(goldens, options);
     CHECK_MESSAGE(run.code == 0, run.err);
-    for (const Json& row : run.json()["results"]) CHECK(row["result"] == "same");
-    return run.json()["results"].size();
+    const Json json = run.json();
+    for (const Json& row : json["results"]) CHECK(row["result"] == "same");
+    return json["results"].size();
   };
   CHECK(same({}) == 2);
   CHECK(same({"--threads", "1"}) == 2);

@@ -24,7 +24,7 @@ int run_in_shell(const Folder& folder, const std::string& line, std::string& err
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-constexpr const char* kShader = "#version 450\nin float x;\nout float y;\nvoid main() { y = x + 1.0; }\n";
+constexpr const char* kAddingShader = "#version 450\nin float x;\nout float y;\nvoid main() { y = x + 1.0; }\n";
 constexpr const char* kCases = R"({"values": {"inputs": [{"name": "x", "type": "float", "values": [1, 2]}],
                                              "outputs": [{"name": "y", "type": "float", "values": [2, 3]}]}})";
 
@@ -312,7 +312,8 @@ TEST_CASE("nothing in a folder of results replaces what is read, nor another res
 TEST_CASE("JUnit XML goes to stdout if asked, alone, but not beside JSON") {
   const Folder folder;
   const std::vector<std::string> eval{
-      "eval", folder.file("a.frag", kShader), "--cases", folder.file("a.json", kCases), "--on", "cpu", "--junit", "-"};
+      "eval", folder.file("a.frag", kAddingShader), "--cases", folder.file("a.json", kCases), "--on", "cpu", "--junit",
+      "-"};
   const Run run = run_twinshade(eval);
   CHECK_MESSAGE(run.code == 0, run.err);
   CHECK_MESSAGE(run.out.find("<?xml") == 0, run.out);
@@ -330,7 +331,7 @@ TEST_CASE("JUnit XML goes to stdout if asked, alone, but not beside JSON") {
 TEST_CASE("files of eval are there even where nobody reads the text") {
   const Folder folder;
   std::string err;
-  folder.file("a.frag", kShader);
+  folder.file("a.frag", kAddingShader);
   folder.file("a.json", kCases);
   run_in_shell(folder,
                "eval '" + (folder / "a.frag") + "' --cases '" + (folder / "a.json") + "' --on cpu --junit '" +

@@ -22,18 +22,18 @@ trap 'kill "${emulator:-}" 2>/dev/null || true; rm -rf "$work"' EXIT
 # Debian's kernel, not installed; what runs is in memory alone.
 (cd "$work" && apt-get download -qq "$(apt-cache depends linux-image-cloud-amd64 | awk '/Depends:/ {print $2; exit}')" &&
   dpkg-deb -x linux-image*.deb kernel && rm linux-image*.deb) 2>/dev/null
-mkdir -p "$work"/{image/isolinux,root/{bin,proc,sys,dev,tmp,work}}
+mkdir -p "$work"/{image/isolinux,root/{bin,proc,sys,dev,tmp,job}}
 cp "$work"/kernel/boot/vmlinuz-* "$work/image/vmlinuz"
 cp /usr/lib/ISOLINUX/isolinux.bin /usr/lib/syslinux/modules/bios/ldlinux.c32 "$work/image/isolinux/"
 cp /bin/busybox "$work/root/bin/"
 for file in "$@"; do
-  cp -rL "$file" "$work/root/work/"
+  cp -rL "$file" "$work/root/job/"
   for library in $([ ! -f "$file" ] || ldd "$file" 2>/dev/null | grep -oE '/[^ ]+'); do
     mkdir -p "$work/root$(dirname "$library")"
     cp -L "$library" "$work/root$library"
   done
 done
-printf '%s\n' "$command" >"$work/root/work/.command"
+printf '%s\n' "$command" >"$work/root/job/.command"
 cat >"$work/root/init" <<'INIT'
 #!/bin/busybox sh
 /bin/busybox mount -t proc proc /proc
@@ -42,7 +42,7 @@ cat >"$work/root/init" <<'INIT'
 /bin/busybox --install -s /bin
 export PATH=/bin HOME=/tmp
 grep -q avx512vl /proc/cpuinfo || echo "the emulated processor has no AVX-512"
-cd /work
+cd /job
 echo "@begin"
 # Not to a terminal, where programs would show their progress.
 { sh .command; echo "@end $?"; } 2>&1 | cat

@@ -73,7 +73,7 @@ struct TestedMap {
 // The jump and the crease, in this order, with their normals.
 std::vector<Finding> seam_findings(const Seams& seams);
 
-// Tests, one file each; those of sphere maps are in stability_sphere_maps.cpp. What a basis cannot be put to finds
+// Tests, one file each; those of sphere maps are in sphere_maps.cpp. What a basis cannot be put to finds
 // nothing.
 std::vector<Finding> test_ringing(const TestedBasis& tested);
 std::vector<Finding> test_constant(const TestedBasis& tested);

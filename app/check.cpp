@@ -8,9 +8,11 @@
 #include <thread>
 
 #include "app/check_report.h"
+#include "app/junit.h"
 #include "app/machines.h"
 #include "app/output.h"
 #include "app/provenance.h"
+#include "app/reports.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "cpu_shaders/machine.h"
@@ -37,12 +39,12 @@ struct CheckVerb {
   std::vector<std::string> shaders;
   std::vector<std::string> on{"cpu", "egl", "osmesa", "softpipe"};
   CLI::Option* on_given = nullptr;
-  std::string junit, annotate;
+  ReportOptions reports;
   bool watch = false, no_timing = false;
 
   int run() {
     apply(common);
-    const Output output(common, junit);
+    const Output output(common, reports);
     require_backends(on);
     require_machine_options(*command, on);
     if (on.size() < 2) throw UserError("--on " + on[0] + ": name at least two backends to compare");
@@ -81,25 +83,25 @@ struct CheckVerb {
       output.progress(fmt::format("{} ({} of {})", paths[index], index + 1, paths.size()));
     });
     Json list = Json::array();
-    std::vector<JUnitCase> cases;
+    std::vector<CaseResult> cases;
     Provenance provenance(common);
     for (const CheckedShader& shader : results) {
       if (!shader.hash.empty()) provenance.add_shader(shader.path, shader.hash);
       for (const BackendCheck& check : shader.backends)
         if (check.not_run.empty()) provenance.add(backend_name(check.target.backend), check.provenance);
       list.push_back(check_json(shader, options.make_exact));
-      cases.push_back(check_junit(shader, options.make_exact));
+      cases.push_back(check_result(shader, options.make_exact));
     }
     output.json({{"provenance", provenance.json()},
                  {"rows", options.generate.rows},
                  {"make_exact", options.make_exact},
                  {"shaders", list}});
-    output.junit(junit_xml("twinshade check", cases));
+    write_reports(output, {"twinshade check", "", cases, provenance.json()});
     // Behind the files: a reader that closes the pipe ends the program.
     output.text(check_table(results));
     for (const CheckedShader& shader : results)
       if (const std::string text = describe_check(shader, options.make_exact); !text.empty()) output.text("\n" + text);
-    if (!annotate.empty()) output.text(github_annotations(cases));
+    if (!reports.annotate.empty()) output.text(github_annotations(cases));
     return exit_code(results);
   }
 
@@ -164,8 +166,7 @@ Verb add_check(CLI::App& app) {
   add_whole_option(*command, "--ulp",
                    "largest distance that is called the same, +0 and -0 being 0 apart (default: every bit has to be)",
                    0, kMostUlp, [verb = verb.get()](std::uint64_t ulp) { verb->options.ulp = ulp; });
-  command->add_option("--junit", verb->junit, "write JUnit XML; - for stdout")->type_name("FILE");
-  add_annotate_option(*command, verb->annotate);
+  add_report_options(*command, verb->reports);
   command->add_flag("--no-timing", verb->no_timing, "do not measure nanoseconds");
   command->add_flag("--watch", verb->watch, "check again whenever a file is saved");
   add_number_options(*command, verb->cpu);

@@ -230,15 +230,15 @@ Json check_json(const CheckedShader& shader, bool make_exact) {
           {make_exact ? "not_made_exact" : "outside_exact_dialect", findings_json(shader.findings)}};
 }
 
-JUnitCase check_junit(const CheckedShader& shader, bool make_exact) {
-  JUnitCase result;
+CaseResult check_result(const CheckedShader& shader, bool make_exact) {
+  CaseResult result;
   result.name = shader.path;
   result.file = shader.path;
   result.files = shader.files;
   result.files.push_back(shader.path);
   result.seconds = shader.seconds;
   if (shader.verdict == Verdict::same_bits || shader.verdict == Verdict::same_to_ulp) return result;
-  result.result = shader.verdict == Verdict::differs ? JUnitCase::Result::failed : JUnitCase::Result::error;
+  result.result = shader.verdict == Verdict::differs ? CaseResult::Result::failed : CaseResult::Result::error;
   result.text = describe_check(shader, make_exact);
   result.message = shader.message.empty() ? verdict_text(shader) : shader.message;
   if (shader.counterexample && shader.counterexample->first_line.difference) {

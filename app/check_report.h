@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/junit.h"
+#include "app/case_result.h"
 #include "app/output.h"
 #include "check/check_shader.h"
 
@@ -17,6 +17,6 @@ std::string check_table(const std::vector<CheckedShader>& shaders);
 // Everything else there is to say of a shader, indented; empty where there is nothing.
 std::string describe_check(const CheckedShader& shader, bool make_exact);
 Json check_json(const CheckedShader& shader, bool make_exact);
-JUnitCase check_junit(const CheckedShader& shader, bool make_exact);
+CaseResult check_result(const CheckedShader& shader, bool make_exact);
 
 }  // namespace twinshade

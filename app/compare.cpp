@@ -6,12 +6,15 @@
 #include <filesystem>
 #include <memory>
 
+#include "app/compare_report.h"
 #include "app/dialect.h"
+#include "app/junit.h"
 #include "app/machines.h"
 #include "app/mismatch.h"
 #include "app/option_rules.h"
 #include "app/output.h"
 #include "app/provenance.h"
+#include "app/reports.h"
 #include "app/subject.h"
 #include "app/table.h"
 #include "base/error.h"
@@ -28,6 +31,7 @@ struct CompareVerb {
   ShadingOptions shading;
   CpuOptions cpu;
   PictureOptions picture;
+  ReportOptions reports;
   AttributeMode attributes = AttributeMode::exact;
   std::vector<std::string> backends{"cpu", "egl", "osmesa"};
   std::string folder;
@@ -52,20 +56,6 @@ std::string frame_name(const std::string& shader, const std::string& backend) {
 std::string reference_of(const std::string& backend, const std::string& first) {
   return backend == "softpipe" ? "cpu" : first;
 }
-
-// One line of the table: shader `technique` on b, held to the reference a.
-struct Row {
-  std::string technique, light, map, a, b;
-  std::string output;   // that colours are of, where the shader has several
-  std::string failure;  // why there is no comparison
-  Comparison comparison;
-  std::string hash_a, hash_b;
-  Json first_difference;
-  std::string description;
-  std::vector<LintFinding> findings;  // where they differ: what in the shader may explain it
-
-  std::string name() const { return output.empty() ? technique : technique + ": " + output; }
-};
 
 class CompareRun {
  public:
@@ -174,21 +164,29 @@ class CompareRun {
 
   void compare_with(const Shading& shader, const std::string& a, const Frame& frame_a, const std::string& b,
                     const Frame& frame_b, CompareScope scope) {
-    Row row = row_of(shader, a, b);
+    ComparedShader row = row_of(shader, a, b);
     row.comparison = compare_frames(frame_a, frame_b, scope);
     row.hash_a = frame_hash(frame_a), row.hash_b = frame_hash(frame_b);
-    if (!verb_.folder.empty() && pictured()) {
-      const bool whole = scope == CompareScope::all;
-      const Frame merged = whole ? Frame() : with_colors_where_covered(frame_a, frame_b);
-      const Frame& shown = whole ? frame_b : merged;
-      write_picture_of(shader, b, shown);
-      if (!row.comparison.equal())
-        written([&] {
-          write_difference_picture(output_.claimed(difference_name(picture_of(shader), a, b)), frame_a, shown);
-        });
-    }
+    const bool whole = scope == CompareScope::all;
+    const Frame merged = whole ? Frame() : with_colors_where_covered(frame_a, frame_b);
+    show(shader, row, frame_a, whole ? frame_b : merged);
     if (!row.comparison.equal()) explain(shader, row, frame_a, frame_b, scope);
     add(std::move(row));
+  }
+
+  // Pictures of b and, where they differ, of that.
+  void show(const Shading& shader, ComparedShader& row, const Frame& frame_a, const Frame& frame_b) {
+    const bool in_folder = !verb_.folder.empty() && pictured();
+    if (in_folder) write_picture_of(shader, row.b, frame_b);
+    if (row.comparison.equal()) return;
+    if (in_folder)
+      written([&] {
+        write_difference_picture(output_.claimed(difference_name(picture_of(shader), row.a, row.b)), frame_a, frame_b);
+      });
+    if (!verb_.reports.html.empty() && shown_++ < kMostPictured)
+      written([&] {
+        row.pictures = mismatch_pictures(row.a, frame_a, row.b, frame_b, row.comparison.first, verb_.picture);
+      });
   }
 
   // What only shades, as a frame: all else is as in the frame that it was given.
@@ -210,7 +208,8 @@ class CompareRun {
 
   // Draws again with the attributes captured, so that the first layer can be told and the inputs named. The counts of
   // the row stay those of the frames as first drawn, but for the attributes, which those did not have.
-  void explain(const Shading& shader, Row& row, const Frame& frame_a, const Frame& frame_b, CompareScope scope) {
+  void explain(const Shading& shader, ComparedShader& row, const Frame& frame_a, const Frame& frame_b,
+               CompareScope scope) {
     const bool captured_b = !frame_b.attribute_names.empty() || scope == CompareScope::shaded_by_a;
     Frame again_a, again_b;
     const Frame* a = &frame_a;
@@ -232,9 +231,10 @@ class CompareRun {
     row.description = describe_mismatch(row.name(), row.a, row.b, again, *a) + describe_findings(row.findings);
   }
 
-  Row row_of(const Shading& shader, const std::string& a, const std::string& b) const {
-    Row row;
-    row.technique = shader.technique, row.light = shader.light, row.map = shader.map, row.a = a, row.b = b;
+  ComparedShader row_of(const Shading& shader, const std::string& a, const std::string& b) const {
+    ComparedShader row;
+    row.attributes = verb_.attributes, row.technique = shader.technique, row.light = shader.light, row.map = shader.map,
+    row.a = a, row.b = b;
     if (several_outputs_) row.output = output_at_.name;
     return row;
   }
@@ -249,7 +249,7 @@ class CompareRun {
   }
 
   void fail(const Shading& shader, const std::string& a, const std::string& b, const std::string& reason) {
-    Row row = row_of(shader, a, b);
+    ComparedShader row = row_of(shader, a, b);
     row.failure = reason;
     add(std::move(row));
   }
@@ -276,8 +276,8 @@ class CompareRun {
     table_.column("verdict");
   }
 
-  void add(Row row) {
-    output_.text((rows_.empty() ? table_.headings() : "") + table_.line(cells(row)));
+  void add(ComparedShader row) {
+    output_.text((rows_.empty() ? table_.headings() : "") + table_.line(compared_cells(row)));
     rows_.push_back(std::move(row));
   }
 
@@ -305,91 +305,35 @@ class CompareRun {
     }
   }
 
-  // softpipe keeps denormals where the dialect flushes them: known, counted, no mismatch.
-  static bool only_softpipe_denormals(const Row& row) {
-    return row.b == "softpipe" && row.comparison.pixels_differ == row.comparison.denormal_only;
-  }
-
-  bool is_mismatch(const Row& row) const {
-    return verb_.attributes == AttributeMode::exact && row.failure.empty() && !row.comparison.equal() &&
-           !only_softpipe_denormals(row);
-  }
-
-  std::string verdict(const Row& row) const {
-    if (!row.failure.empty()) return "failed";
-    if (row.comparison.equal()) return "equal";
-    if (is_mismatch(row)) return "DIFFERS";
-    return verb_.attributes == AttributeMode::native ? "differs (native)" : "denormals only";
-  }
-
   int exit_code() const {
     int code = 0;
-    for (const Row& row : rows_) {
+    for (const ComparedShader& row : rows_) {
       if (!row.failure.empty()) return 2;
-      if (is_mismatch(row)) code = 1;
+      if (row.is_mismatch()) code = 1;
     }
     return code;
   }
 
   void report() const {
     Json results = Json::array();
-    for (const Row& row : rows_) results.push_back(json(row));
+    for (const ComparedShader& row : rows_) results.push_back(compared_json(row));
     std::string text;
     for (const auto& [technique, reason] : skipped_) text += fmt::format("skipped {}: {}\n", technique, reason);
-    for (const Row& row : rows_)
+    for (const ComparedShader& row : rows_)
       if (!row.failure.empty()) text += fmt::format("failed {} on {}: {}\n", row.name(), row.b, row.failure);
-    for (const Row& row : rows_)
-      if (is_mismatch(row)) text += row.description;
+    for (const ComparedShader& row : rows_)
+      if (row.is_mismatch()) text += row.description;
     output_.text(text);
+    const std::vector<CaseResult> cases = compared_results(rows_, verb_.shading.shader);
+    if (!verb_.reports.annotate.empty()) output_.text(github_annotations(cases));
 
     Json skipped = Json::array();
     for (const auto& [technique, reason] : skipped_) skipped.push_back({{"technique", technique}, {"reason", reason}});
     output_.json({{"provenance", provenance_.json()}, {"results", results}, {"skipped", skipped}});
-  }
-
-  std::vector<std::string> cells(const Row& row) const {
-    std::vector<std::string> cells{row.name(), row.light.empty() ? "-" : row.light, row.map.empty() ? "-" : row.map,
-                                   row.a, row.b};
-    const Comparison& c = row.comparison;
-    if (!row.failure.empty()) {
-      cells.resize(13, "-");
-    } else {
-      for (const std::uint64_t count : {c.shaded_pixels, c.coverage_differs, c.id_differs, c.depth_differs,
-                                        c.attributes_differ, c.pixels_differ, c.denormal_only})
-        cells.push_back(std::to_string(count));
-      cells.push_back(c.max_ulp == UINT64_MAX ? "NaN" : std::to_string(c.max_ulp));
-    }
-    cells.push_back(verdict(row));
-    return cells;
-  }
-
-  Json json(const Row& row) const {
-    Json json{{"technique", row.technique},
-              {"light", row.light.empty() ? Json(nullptr) : Json(row.light)},
-              {"map", row.map.empty() ? Json(nullptr) : Json(row.map)},
-              {"a", row.a},
-              {"b", row.b},
-              {"output", row.output.empty() ? Json(nullptr) : Json(row.output)},
-              {"attributes", attribute_mode_name(verb_.attributes)}};
-    if (!row.failure.empty()) {
-      json["error"] = row.failure;
-      return json;
-    }
-    const Comparison& c = row.comparison;
-    json["shaded_pixels"] = c.shaded_pixels;
-    json["coverage_differs"] = c.coverage_differs;
-    json["id_differs"] = c.id_differs;
-    json["depth_differs"] = c.depth_differs;
-    json["attributes_differ"] = c.attributes_differ;
-    json["pixels_differ"] = c.pixels_differ;
-    json["denormal_only"] = c.denormal_only;
-    json["max_ulp"] = ulp_json(c.max_ulp);
-    json["first_difference"] = row.first_difference;
-    json["outside_exact_dialect"] = findings_json(row.findings);
-    json["verdict"] = verdict(row);
-    json["a_frame"] = row.hash_a;
-    json["b_frame"] = row.hash_b;
-    return json;
+    write_reports(output_, {"twinshade compare",
+                            fmt::format("{}, {} x {} pixels, {} attributes", verb_.subject.scene, subject_.bundle.width,
+                                        subject_.bundle.height, attribute_mode_name(verb_.attributes)),
+                            cases, provenance_.json()});
   }
 
   const CompareVerb& verb_;
@@ -401,7 +345,8 @@ class CompareRun {
   bool several_outputs_ = false;
   std::uint32_t first_location_ = 0;
   Table table_;  // its columns: rows are not kept
-  std::vector<Row> rows_;
+  std::vector<ComparedShader> rows_;
+  std::size_t shown_ = 0;      // in the report
   std::size_t unwritten_ = 0;  // pictures
   std::string write_error_;    // of the first
   std::vector<std::pair<std::string, std::string>> skipped_;
@@ -432,7 +377,7 @@ std::vector<std::string> CompareVerb::picture_names() const {
 
 int CompareVerb::run() const {
   apply(common);
-  Output output(common, {}, folder);
+  Output output(common, reports, folder);
   require_backends(backends);
   require_machine_options(*command, backends);
   if (backends.size() < 2) throw UserError("--on: name at least two backends to compare, as cpu,egl");
@@ -466,6 +411,7 @@ Verb add_compare(CLI::App& app) {
   add_attribute_option(*command, verb->attributes);
   command->add_option("-o,--output", verb->folder, "folder for pictures of the frames and their differences")
       ->type_name("DIR");
+  add_report_options(*command, verb->reports);
   add_time_limit_option(*command, verb->time_limit_seconds);
   add_cpu_options(*command, verb->cpu);
   add_fma_option(*command, verb->host_fma);

@@ -12,9 +12,11 @@
 #include <utility>
 
 #include "app/eval_report.h"
+#include "app/junit.h"
 #include "app/machines.h"
 #include "app/output.h"
 #include "app/provenance.h"
+#include "app/reports.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/names.h"
@@ -75,7 +77,8 @@ Number number_named(const std::string& name) {
 struct EvalVerb {
   CLI::App* command = nullptr;
   CommonOptions common;
-  std::string shader, cases_file, junit_file, annotate;
+  std::string shader, cases_file;
+  ReportOptions reports;
   SourceOptions source;
   std::vector<std::string> backends{"cpu", "egl"};
   std::optional<Number> number;  // none: lanes
@@ -83,7 +86,7 @@ struct EvalVerb {
 
   int run() const {
     apply(common);
-    const Output output(common, junit_file);
+    const Output output(common, reports);
     require_backends(backends);
     require_machine_options(*command, backends);
     const std::vector<EvaluationTarget> targets = named_targets();
@@ -203,7 +206,7 @@ struct EvalVerb {
   }
 
   void annotate_failures(const std::vector<EvaluatedCase>& cases, const Output& output) const {
-    if (!annotate.empty()) output.text(github_annotations(eval_junit(cases)));
+    if (!reports.annotate.empty()) output.text(github_annotations(eval_results(cases)));
   }
 
   void write_files(const std::vector<EvaluatedCase>& cases, const Output& output) const {
@@ -214,7 +217,7 @@ struct EvalVerb {
         if (backend.error.empty()) provenance.add(backend.name, backend.rows.provenance);
     }
     output.json({{"provenance", provenance.json()}, {"cases", eval_json(cases)}});
-    output.junit(junit_xml("twinshade eval", eval_junit(cases)));
+    write_reports(output, {"twinshade eval", "", eval_results(cases), provenance.json()});
   }
 
   int report(const std::vector<EvaluatedCase>& cases, bool many, const Output& output) const {
@@ -247,8 +250,7 @@ Verb add_eval(CLI::App& app) {
           "number type of the CPU (default: lanes, as many as registers hold)")
       ->type_name(fmt::format("{}", fmt::join(kEvalNumbers, "|")));
   add_source_options(*command, verb->source);
-  command->add_option("--junit", verb->junit_file, "write the results as JUnit XML; - for stdout")->type_name("F.xml");
-  add_annotate_option(*command, verb->annotate);
+  add_report_options(*command, verb->reports);
   add_fma_option(*command, verb->options.host_fma);
   add_time_limit_option(*command, verb->options.time_limit_seconds);
   add_common_options(*command, verb->common);

@@ -170,9 +170,9 @@ Json eval_json(const std::vector<EvaluatedCase>& cases) {
   return list;
 }
 
-std::vector<JUnitCase> eval_junit(const std::vector<EvaluatedCase>& cases) {
-  using Result = JUnitCase::Result;
-  std::vector<JUnitCase> list;
+std::vector<CaseResult> eval_results(const std::vector<EvaluatedCase>& cases) {
+  using Result = CaseResult::Result;
+  std::vector<CaseResult> list;
   for (const EvaluatedCase& c : cases) {
     if (!c.error.empty()) {
       const bool of_cases = c.error.rfind(c.cases_file, 0) == 0;

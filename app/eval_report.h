@@ -1,10 +1,10 @@
-// What eval found, for people, as JSON and as JUnit XML.
+// What eval found, for people, as JSON and as results of cases.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "app/junit.h"
+#include "app/case_result.h"
 #include "app/output.h"
 #include "evaluate/cases.h"
 #include "evaluate/compare_outputs.h"
@@ -37,6 +37,6 @@ struct EvaluatedCase {
 // inputs, in decimal and as hex floats; then a total.
 std::string eval_text(const std::vector<EvaluatedCase>& cases, bool many);
 Json eval_json(const std::vector<EvaluatedCase>& cases);
-std::vector<JUnitCase> eval_junit(const std::vector<EvaluatedCase>& cases);
+std::vector<CaseResult> eval_results(const std::vector<EvaluatedCase>& cases);
 
 }  // namespace twinshade

@@ -92,6 +92,20 @@ std::string describe_mismatch(const std::string& technique, const std::string& a
   return text;
 }
 
+CaseResult::Pictures mismatch_pictures(const std::string& a, const Frame& frame_a, const std::string& b,
+                                       const Frame& frame_b, const std::optional<Difference>& first,
+                                       const PictureOptions& options) {
+  CaseResult::Pictures pictures{frame_a.width, frame_a.height};
+  if (first) pictures.x = first->x, pictures.y = frame_a.height - 1 - first->y;
+  pictures.list = {
+      {a, picture_png(frame_a, options)},
+      {b, picture_png(frame_b, options)},
+      {"difference: blue 1 ULP, through green and yellow to red 2^16 or more; white NaN, cyan depth, orange "
+       "triangle, magenta coverage",
+       difference_png(frame_a, frame_b)}};
+  return pictures;
+}
+
 Json difference_json(const std::optional<Difference>& difference, const Frame& frame_a) {
   if (!difference) return nullptr;
   const Difference& d = *difference;
@@ -112,6 +126,18 @@ Json difference_json(const std::optional<Difference>& difference, const Frame& f
     json["inputs"].push_back(
         {{"name", name}, {"value", float_json(value_of(scalar, bits))}, {"hex", hex_text(scalar, bits)}});
   return json;
+}
+
+void add_comparison(Json& json, const Comparison& c, const Json& first_difference) {
+  json["shaded_pixels"] = c.shaded_pixels;
+  json["coverage_differs"] = c.coverage_differs;
+  json["id_differs"] = c.id_differs;
+  json["depth_differs"] = c.depth_differs;
+  json["attributes_differ"] = c.attributes_differ;
+  json["pixels_differ"] = c.pixels_differ;
+  json["denormal_only"] = c.denormal_only;
+  json["max_ulp"] = ulp_json(c.max_ulp);
+  json["first_difference"] = first_difference;
 }
 
 }  // namespace twinshade

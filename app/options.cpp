@@ -333,11 +333,14 @@ void add_attribute_modes_option(CLI::App& command, std::vector<AttributeMode>& m
              });
 }
 
-void add_annotate_option(CLI::App& command, std::string& service) {
+void add_report_options(CLI::App& command, ReportOptions& options) {
+  command.add_option("--junit", options.junit, "write the results as JUnit XML; - for stdout")->type_name("FILE");
+  command.add_option("--html", options.html, "write a page for people, with pictures of what differs; - for stdout")
+      ->type_name("FILE");
   add_parsed(command, "--annotate", "github",
              "name what did not pass in the form that a service shows beside the source", [&](const std::string& text) {
                if (text != "github") throw UserError("--annotate " + text + ": must be github");
-               service = text;
+               options.annotate = text;
              });
 }
 
@@ -438,7 +441,7 @@ void require_names(const CLI::App& command) {
       throw UserError(fmt::format("{} '': the name is empty; name the {} to {}", name,
                                   option->get_type_name() == "DIR" ? "folder" : "file", use));
   };
-  for (const char* name : {"-o", "--json", "--junit"}) require(name, "write");
+  for (const char* name : {"-o", "--json", "--junit", "--html"}) require(name, "write");
   for (const char* name : {"--shader", "--cases", "--inputs", "--env2"}) require(name, "read, or leave the option out");
 }
 

@@ -51,6 +51,12 @@ struct CommonOptions {
   bool quiet = false;
 };
 
+// How each case went, of verbs that judge: for CI services and for people.
+struct ReportOptions {
+  std::string junit, html;  // files, "-" for stdout, empty: none
+  std::string annotate;     // the service, or empty
+};
+
 // Where shaders read their light from. automatic: lightmaps, or vertices where there are none, and volumes for
 // techniques that read nothing else; all: each technique from everything that it can be read from.
 enum class LightSource { automatic, lightmap, vertex, volume, all };
@@ -108,7 +114,8 @@ void add_reference_options(CLI::App& command, ShadingOptions& options);
 void add_attribute_option(CLI::App& command, AttributeMode& attributes);
 // The same, or both.
 void add_attribute_modes_option(CLI::App& command, std::vector<AttributeMode>& modes);
-void add_annotate_option(CLI::App& command, std::string& service);
+// --junit, --html and --annotate.
+void add_report_options(CLI::App& command, ReportOptions& options);
 // --gl-fma, and --no-host-fma for short.
 void add_fma_option(CLI::App& command, bool& host_fma);
 // --isa, --number and --lanes. isa_default: what is drawn with where --isa is not given, for the help.

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cerrno>
 #include <cmath>
@@ -37,23 +38,36 @@ bool same_file(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-Output::Output(const CommonOptions& options, const std::string& junit_file, const std::string& folder)
-    : options_(options), junit_file_(junit_file), folder_(folder) {
-  if (options.json == "-" && junit_file == "-")
-    throw UserError("--json - and --junit -: both go to stdout; name a file for one of them");
+Output::Output(const CommonOptions& options, const ReportOptions& reports, const std::string& folder)
+    : options_(options), reports_(reports), folder_(folder) {
+  const std::array<std::pair<const char*, std::string>, 3> documents{
+      {{"--json", options.json}, {"--junit", reports.junit}, {"--html", reports.html}}};
+  for (auto one = documents.begin(); one != documents.end(); ++one)
+    for (auto other = documents.begin(); other != one; ++other) {
+      if (one->second.empty() || other->second.empty()) continue;
+      if (one->second == "-" && other->second == "-")
+        throw UserError(
+            fmt::format("{} - and {} -: both go to stdout; name a file for one of them", other->first, one->first));
+      if (one->second != "-" && other->second != "-" && same_file(one->second, other->second))
+        throw UserError(fmt::format("{} and {} both write {}: name another file for one of them", other->first,
+                                    one->first, one->second));
+    }
   std::error_code code;
-  for (const std::string& file : {options.json, junit_file})
+  for (const auto& [option, file] : documents)
     if (!file.empty() && file != "-" && (fs::exists(folder, code) || !is_in_folder(file))) require_writable_file(file);
-  if (const auto written = files(); written.size() == 2 && same_file(written[0].second, written[1].second))
-    throw UserError("--json and --junit both write " + junit_file + ": name another file for one of them");
   shows_progress_ = !options.quiet && ::isatty(STDERR_FILENO);
 }
 
 std::vector<std::pair<std::string, std::string>> Output::files() const {
   std::vector<std::pair<std::string, std::string>> files;
-  for (const auto& [option, file] : {std::pair("--json ", options_.json), std::pair("--junit ", junit_file_)})
+  for (const auto& [option, file] : {std::pair("--json ", options_.json), std::pair("--junit ", reports_.junit),
+                                     std::pair("--html ", reports_.html)})
     if (!file.empty() && file != "-") files.emplace_back(option + file, file);
   return files;
+}
+
+bool Output::document_on_stdout() const {
+  return options_.json == "-" || reports_.junit == "-" || reports_.html == "-";
 }
 
 void Output::claim(std::vector<std::string> names) {
@@ -126,7 +140,7 @@ void Output::require_not_taken(const std::string& folder, const std::string& end
 
 void Output::text(const std::string& text) const {
   clear_progress();
-  if (options_.json == "-" || junit_file_ == "-")
+  if (document_on_stdout())
     std::fputs(text.c_str(), stderr);
   else
     write_to_stdout(text);
@@ -159,7 +173,9 @@ void Output::json_so_far(const Json& so_far) const {
   if (!options_.json.empty() && options_.json != "-" && is_replaced_by_writing(options_.json)) json(so_far);
 }
 
-void Output::junit(const std::string& xml) const { write_to(junit_file_, xml); }
+void Output::junit(const std::string& xml) const { write_to(reports_.junit, xml); }
+
+void Output::html(const std::string& page) const { write_to(reports_.html, page); }
 
 std::vector<std::string> files_of_shader(const std::string& shader, const SourceOptions& options) {
   std::vector<std::string> files{shader};

@@ -14,20 +14,20 @@ namespace twinshade {
 
 using Json = nlohmann::ordered_json;
 
-// Results are read on stdout. When JSON or JUnit XML takes stdout (--json -, --junit -), text for people moves to
+// Results are read on stdout. When a document takes stdout (--json -, --junit -, --html -), text for people moves to
 // stderr, so that what a program reads is that alone. UserError where stdout cannot be written.
 class Output {
  public:
-  // Refuses files that cannot be written, and one file for two results, before any work is done. junit_file: what
-  // --junit says, of verbs that have it. folder: what -o says, of verbs that make one: --json may be in it before it is
-  // there.
-  explicit Output(const CommonOptions& options, const std::string& junit_file = {}, const std::string& folder = {});
+  // Refuses files that cannot be written, and one file for two results, before any work is done. reports: what
+  // verbs that have them say. folder: what -o says, of verbs that make one: --json and reports may be in it before it
+  // is there.
+  explicit Output(const CommonOptions& options, const ReportOptions& reports = {}, const std::string& folder = {});
   // Says what files -o writes into its folder, by name: all that it may write, before any work. Refuses --json and
-  // --junit of those names; require_not_read then keeps what is read from being replaced by them.
+  // reports of those names; require_not_read then keeps what is read from being replaced by them.
   void claim(std::vector<std::string> names);
   // Where one of those goes; a name that was not claimed is a broken invariant.
   std::string claimed(const std::string& name) const;
-  // Refuses to write over a file that the verb reads. `written`: what else it writes, beside --json and --junit and
+  // Refuses to write over a file that the verb reads. `written`: what else it writes, beside --json, reports and
   // what is claimed.
   void require_not_read(const std::vector<std::string>& read, const std::string& written = {}) const;
   // Refuses a file in `folder` with this ending: the next run would read it.
@@ -40,6 +40,8 @@ class Output {
   // The same of what there is so far, before more of it: to files alone, which the next one replaces.
   void json_so_far(const Json& json) const;
   void junit(const std::string& xml) const;  // to where --junit says; nothing without it
+  bool wants_html() const { return !reports_.html.empty(); }
+  void html(const std::string& page) const;  // to where --html says; nothing without it
 
  private:
   void clear_progress() const;
@@ -49,9 +51,10 @@ class Output {
   void write_to(const std::string& file, const std::string& text) const;
   // What is said of a file, and the file; none for stdout.
   std::vector<std::pair<std::string, std::string>> files() const;
+  bool document_on_stdout() const;
 
   const CommonOptions& options_;
-  const std::string junit_file_;
+  const ReportOptions reports_;
   const std::string folder_;        // -o; empty: none
   std::set<std::string> claimed_;   // names of files in it
   std::vector<std::string> links_;  // those that are links: what one leads to is replaced

@@ -39,6 +39,25 @@ std::string with_characters_alone(std::string_view text) {
   return result;
 }
 
+std::string xml_escaped(std::string_view text) {
+  std::string result;
+  for (const char c : with_characters_alone(text)) {
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else if (c == '"')
+      result += "&quot;";
+    else if (c == '\r')
+      result += "&#13;";
+    else
+      result += c;
+  }
+  return result;
+}
+
 std::string one_line(std::string_view text) {
   std::string result;
   for (std::size_t i = 0; i < text.size(); ++i) {

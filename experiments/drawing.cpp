@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/base64.h"
 #include "base/error.h"
 #include "base/utf8.h"
 
@@ -24,34 +25,6 @@ std::string color(Color c) { return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g,
 std::string points(const std::vector<Point>& list) {
   std::string text;
   for (const Point& p : list) text += fmt::format("{}{},{}", text.empty() ? "" : " ", number(p.x), number(p.y));
-  return text;
-}
-
-std::string escaped(const std::string& words) {
-  std::string text;
-  for (const char c : words) {
-    if (c == '&')
-      text += "&amp;";
-    else if (c == '<')
-      text += "&lt;";
-    else if (c == '>')
-      text += "&gt;";
-    else
-      text += c;
-  }
-  return text;
-}
-
-// RFC 4648.
-std::string base64(const std::string& bytes) {
-  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : kDigits[group >> (18 - 6 * k) & 63];
-  }
   return text;
 }
 
@@ -139,7 +112,7 @@ class Drawing::SvgWriter {
     if (text.style.bold) out += " font-weight=\"bold\"";
     if (text.style.upwards)
       out += fmt::format(" transform=\"rotate(-90 {} {})\"", number(text.at.x), number(text.at.y));
-    out += fmt::format(">{}</text>\n", escaped(text.words));
+    out += fmt::format(">{}</text>\n", xml_escaped(text.words));
   }
   void operator()(const Image& image) {
     out += fmt::format(

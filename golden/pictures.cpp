@@ -69,14 +69,18 @@ unsigned char toned_value(double exposed, Tonemap tonemap) {
   return encoded(std::min(tone_curve(std::min(exposed, 1e100), tonemap), 1.0));
 }
 
-// Writes a y-down picture whose rows are those of a y-up buffer, last row first.
+// A y-down picture whose rows are those of a y-up buffer, last row first.
 template <class Rows>
-void write_rows(const std::string& path, std::uint32_t width, std::uint32_t height, int channels, const Rows& y_up,
-                const PictureOptions& options) {
+ImageToWrite image_of(const Frame& frame, int channels, const Rows& y_up, const PictureOptions& options) {
   using T = typename Rows::value_type;
-  const std::size_t row = std::size_t(width) * channels;
-  write_image_file(path, {width, height, channels, sizeof(T) == 4, y_up.data() + (height - 1) * row,
-                          -std::ptrdiff_t(row * sizeof(T)), options.notes});
+  const std::size_t row = std::size_t(frame.width) * channels;
+  return {frame.width,
+          frame.height,
+          channels,
+          sizeof(T) == 4,
+          y_up.data() + (frame.height - 1) * row,
+          -std::ptrdiff_t(row * sizeof(T)),
+          options.notes};
 }
 
 using Rgb = std::array<unsigned char, 3>;
@@ -119,6 +123,31 @@ Rgb difference_color(const Frame& a, const Frame& b, std::size_t pixel) {
   return {grey, grey, grey};
 }
 
+// RGB of a picture for people.
+std::vector<unsigned char> displayed(const Frame& frame, const PictureOptions& options) {
+  std::vector<unsigned char> rgb(std::size_t(frame.width) * frame.height * 3);
+  const double scale = portable::exp2(options.exposure);
+  parallel_for(frame.height, [&](std::size_t y, int) {
+    for (std::size_t i = y * frame.width; i < (y + 1) * frame.width; ++i)
+      for (std::size_t c = 0; c < 3; ++c)
+        rgb[i * 3 + c] = toned_value(double(frame.color[i * 4 + c]) * scale, options.tonemap);
+  });
+  return rgb;
+}
+
+std::vector<unsigned char> difference_colors(const Frame& a, const Frame& b) {
+  TWINSHADE_CHECK_EQ(a.width, b.width);
+  TWINSHADE_CHECK_EQ(a.height, b.height);
+  std::vector<unsigned char> rgb(std::size_t(a.width) * a.height * 3);
+  parallel_for(a.height, [&](std::size_t y, int) {
+    for (std::size_t i = y * a.width; i < (y + 1) * a.width; ++i) {
+      const Rgb color = difference_color(a, b, i);
+      std::copy(color.begin(), color.end(), rgb.begin() + std::ptrdiff_t(i * 3));
+    }
+  });
+  return rgb;
+}
+
 }  // namespace
 
 unsigned char display_value(double radiance, double exposure, Tonemap tonemap) {
@@ -137,7 +166,7 @@ void write_picture(const std::string& path, const Frame& frame, const PictureOpt
   const std::string ending = lower_case_ending(path);
   const std::size_t pixels = std::size_t(frame.width) * frame.height;
   if (ending == ".exr") {
-    write_rows(path, frame.width, frame.height, 4, frame.color, options);
+    write_image_file(path, image_of(frame, 4, frame.color, options));
   } else if (ending == ".hdr") {
     std::vector<float> rgb(pixels * 3);
     for (std::size_t i = 0; i < pixels; ++i)
@@ -145,31 +174,24 @@ void write_picture(const std::string& path, const Frame& frame, const PictureOpt
         const float v = frame.color[i * 4 + c];
         rgb[i * 3 + c] = v > 0 ? v : 0.0f;
       }
-    write_rows(path, frame.width, frame.height, 3, rgb, options);
+    write_image_file(path, image_of(frame, 3, rgb, options));
   } else {
-    std::vector<unsigned char> rgb(pixels * 3);
-    const double scale = portable::exp2(options.exposure);
-    parallel_for(frame.height, [&](std::size_t y, int) {
-      for (std::size_t i = y * frame.width; i < (y + 1) * frame.width; ++i)
-        for (std::size_t c = 0; c < 3; ++c)
-          rgb[i * 3 + c] = toned_value(double(frame.color[i * 4 + c]) * scale, options.tonemap);
-    });
-    write_rows(path, frame.width, frame.height, 3, rgb, options);
+    write_image_file(path, image_of(frame, 3, displayed(frame, options), options));
   }
 }
 
 void write_difference_picture(const std::string& path, const Frame& a, const Frame& b) {
-  TWINSHADE_CHECK_EQ(a.width, b.width);
-  TWINSHADE_CHECK_EQ(a.height, b.height);
   if (lower_case_ending(path) != ".png") throw UserError(path + ": a picture of differences must end in .png");
-  std::vector<unsigned char> rgb(std::size_t(a.width) * a.height * 3);
-  parallel_for(a.height, [&](std::size_t y, int) {
-    for (std::size_t i = y * a.width; i < (y + 1) * a.width; ++i) {
-      const Rgb color = difference_color(a, b, i);
-      std::copy(color.begin(), color.end(), rgb.begin() + std::ptrdiff_t(i * 3));
-    }
-  });
-  write_rows(path, a.width, a.height, 3, rgb, {});
+  write_image_file(path, image_of(a, 3, difference_colors(a, b), {}));
+}
+
+std::string picture_png(const Frame& frame, const PictureOptions& options) {
+  TWINSHADE_CHECK_EQ(frame.color.size(), std::size_t(frame.width) * frame.height * 4);
+  return encode_png(image_of(frame, 3, displayed(frame, options), options));
+}
+
+std::string difference_png(const Frame& a, const Frame& b) {
+  return encode_png(image_of(a, 3, difference_colors(a, b), {}));
 }
 
 }  // namespace twinshade

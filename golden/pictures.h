@@ -35,6 +35,10 @@ void write_picture(const std::string& path, const Frame& frame, const PictureOpt
 // magenta.
 void write_difference_picture(const std::string& path, const Frame& a, const Frame& b);
 
+// The bytes of the same as PNG files.
+std::string picture_png(const Frame& frame, const PictureOptions& options = {});
+std::string difference_png(const Frame& a, const Frame& b);
+
 // One channel of radiance to 8 bits: exposure, tone curve, sRGB transfer (IEC 61966-2-1), nearest. NaN is 0.
 unsigned char display_value(double radiance, double exposure, Tonemap tonemap);
 

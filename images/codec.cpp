@@ -235,23 +235,28 @@ void add_notes(OIIO::ImageSpec& spec, const std::vector<std::pair<std::string, s
 }
 
 // Into memory first: writing to a file itself, the library does not see all that fails, and a PNG cut short would pass.
-void write_pixels(const std::string& path, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* upper_row,
-                  OIIO::stride_t row_stride) {
-  const auto out = OIIO::ImageOutput::create(path);
+// The bytes of a file of that name.
+std::string encoded_pixels(const std::string& name, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
+                           const void* upper_row, OIIO::stride_t row_stride) {
+  const auto out = OIIO::ImageOutput::create(name);
   if (!out) refuse(OIIO::geterror());
   OIIO::Filesystem::IOVecOutput memory;
   if (!out->supports("ioproxy") || !out->set_ioproxy(&memory)) refuse("this format cannot be made in memory");
-  if (!out->open(path, spec)) refuse(out->geterror());
+  if (!out->open(name, spec)) refuse(out->geterror());
   if (!out->write_image(type, upper_row, OIIO::AutoStride, row_stride)) refuse(out->geterror());
   if (!out->close()) refuse(out->geterror());
-  std::ofstream file(path, std::ios::binary);
   const auto& bytes = memory.buffer();
-  if (file) file.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+void write_bytes(const std::string& path, const std::string& bytes) {
+  std::ofstream file(path, std::ios::binary);
+  if (file) file.write(bytes.data(), std::streamsize(bytes.size()));
   file.close();
   if (!file) refuse(std::strerror(errno));
 }
 
-void write_file(const std::string& path, const ImageToWrite& image) {
+std::string encode(const std::string& name, const ImageToWrite& image) {
   const OIIO::TypeDesc type = image.is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8;
   OIIO::ImageSpec spec(int(image.width), int(image.height), image.channels, type);
   if (image.is_float)
@@ -259,8 +264,10 @@ void write_file(const std::string& path, const ImageToWrite& image) {
   else
     spec.attribute("oiio:ColorSpace", "sRGB");
   add_notes(spec, image.notes);
-  write_pixels(path, spec, type, image.upper_row, OIIO::stride_t(image.row_stride));
+  return encoded_pixels(name, spec, type, image.upper_row, OIIO::stride_t(image.row_stride));
 }
+
+void write_file(const std::string& path, const ImageToWrite& image) { write_bytes(path, encode(path, image)); }
 
 OIIO::TypeDesc word_type(bool is_float) { return is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT32; }
 
@@ -274,7 +281,7 @@ void write_channels(const std::string& path, const ChannelImage& image) {
   spec.attribute("compression", "zip");
   add_notes(spec, image.notes);
   // UNKNOWN: each channel is in its own format already.
-  write_pixels(path, spec, OIIO::TypeDesc::UNKNOWN, image.words.data(), OIIO::AutoStride);
+  write_bytes(path, encoded_pixels(path, spec, OIIO::TypeDesc::UNKNOWN, image.words.data(), OIIO::AutoStride));
 }
 
 ChannelImage read_channels(const std::string& path, std::uint64_t most) {
@@ -306,7 +313,7 @@ ChannelImage read_channels(const std::string& path, std::uint64_t most) {
 }  // namespace
 }  // namespace twinshade
 
-extern "C" __attribute__((visibility("default"))) const twinshade::ImageCodec twinshade_image_codec_3;
-const twinshade::ImageCodec twinshade_image_codec_3 = {twinshade::read_file, twinshade::read_memory,
-                                                       twinshade::write_file, twinshade::read_channels,
-                                                       twinshade::write_channels};
+extern "C" __attribute__((visibility("default"))) const twinshade::ImageCodec twinshade_image_codec_4;
+const twinshade::ImageCodec twinshade_image_codec_4 = {twinshade::read_file,     twinshade::read_memory,
+                                                       twinshade::write_file,    twinshade::encode,
+                                                       twinshade::read_channels, twinshade::write_channels};

@@ -17,13 +17,14 @@ struct ImageCodec {
   DecodedImage (*read_file)(const std::string& path, const std::string& format, std::uint64_t most);
   DecodedImage (*read_memory)(std::string_view bytes, const std::string& format, std::uint64_t most);
   void (*write_file)(const std::string& path, const ImageToWrite& image);
+  std::string (*encode)(const std::string& name, const ImageToWrite& image);   // the bytes of a file of that name
   ChannelImage (*read_channels)(const std::string& path, std::uint64_t most);  // OpenEXR
   void (*write_channels)(const std::string& path, const ChannelImage& image);
 };
 
 // The module's symbol, of type const ImageCodec. Its number goes up where that changes: a module of another build is
 // refused, not called.
-constexpr const char* kImageCodecSymbol = "twinshade_image_codec_3";
+constexpr const char* kImageCodecSymbol = "twinshade_image_codec_4";
 
 // UserError naming where the module was looked for, or what it lacks.
 const ImageCodec& image_codec();

@@ -231,6 +231,16 @@ void write_image_file(const std::string& path, const ImageToWrite& image) {
   write_with_codec(path, [&](const std::string& temporary) { image_codec().write_file(temporary, image); });
 }
 
+std::string encode_png(const ImageToWrite& image) {
+  try {
+    return image_codec().encode("picture.png", image);
+  } catch (const UserError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw UserError(std::string("a picture cannot be made: ") + error.what());
+  }
+}
+
 std::size_t ChannelImage::find(std::string_view name) const {
   return std::size_t(std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name == name; }) -
                      channels.begin());

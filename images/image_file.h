@@ -35,6 +35,8 @@ struct ImageToWrite {
 // Format by ending. The same image is the same bytes: no time of writing. UserError naming the path where it cannot be
 // written; nothing half-written stays behind.
 void write_image_file(const std::string& path, const ImageToWrite& image);
+// The bytes of a PNG file, for documents that pictures are part of.
+std::string encode_png(const ImageToWrite& image);
 
 // A picture of named channels, each of 32-bit words that nothing converts: what is written is read bit for bit.
 struct ChannelImage {

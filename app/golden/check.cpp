@@ -15,7 +15,10 @@
 #include "app/golden/report.h"
 #include "app/golden/scene.h"
 #include "app/golden/verbs.h"
+#include "app/junit.h"
+#include "app/mismatch.h"
 #include "app/provenance.h"
+#include "app/reports.h"
 #include "base/error.h"
 #include "base/names.h"
 #include "cpu_shaders/machine.h"
@@ -33,7 +36,8 @@ struct GoldenCheckVerb {
   CommonOptions common;
   CpuOptions cpu;
   std::vector<std::string> folders, backends{"cpu"};
-  std::string only, junit_file, annotate, pictures;
+  std::string only, pictures;
+  ReportOptions reports;
   std::uint64_t ulp = 0;
   bool host_fma = true;
   double time_limit_seconds = DrawOptions().time_limit_seconds;
@@ -202,6 +206,8 @@ class GoldenCheckRun {
     if (told) row.description = fmt::format("\n{}: {} draws the same bits as {}\n", row.name, row.on, alike->on);
     if (!told) row.findings = findings_of(scene.shading.source);
     try {
+      if (!verb_.reports.html.empty() && row.comparison && pictured_++ < kMostPictured)
+        row.pictures = mismatch_pictures("golden", *image.frame, row.on, frame, row.comparison->first);
       write_pictures(row, *image.frame, frame);
     } catch (const UserError& error) {  // told last: the frames are drawn and are held to their images all the same
       if (write_error_.empty()) write_error_ = error.what();
@@ -252,9 +258,10 @@ class GoldenCheckRun {
       failures += failure_text(row);
     }
     output_.json({{"provenance", provenance_.json()}, {"results", results}});
-    output_.junit(junit_xml("twinshade golden check", golden_junit(rows_)));
+    const std::vector<CaseResult> cases = golden_results(rows_);
+    write_reports(output_, {"twinshade golden check", check_summary(rows_, verb_.ulp), cases, provenance_.json()});
     output_.text(failures + check_summary(rows_, verb_.ulp));
-    if (!verb_.annotate.empty()) output_.text(github_annotations(golden_junit(rows_)));
+    if (!verb_.reports.annotate.empty()) output_.text(github_annotations(cases));
     if (!write_error_.empty()) throw UserError(write_error_);
     int code = 0;
     for (const GoldenRow& row : rows_) {
@@ -275,14 +282,14 @@ class GoldenCheckRun {
   std::vector<std::pair<std::string, GoldenEntry>> entries_;  // of a folder
   Table table_;                                               // its columns: rows are not kept
   std::vector<GoldenRow> rows_;
-  std::size_t drawn_ = 0;
+  std::size_t drawn_ = 0, pictured_ = 0;
   bool headed_ = false;
   std::string write_error_;  // of the first picture that could not be written
 };
 
 int GoldenCheckVerb::run() const {
   apply(common);
-  Output output(common, junit_file, pictures);
+  Output output(common, reports, pictures);
   require_backends(backends);
   require_machine_options(*command, backends);
   if (std::find(backends.begin(), backends.end(), "softpipe") != backends.end())
@@ -320,8 +327,7 @@ Verb add_golden_check(CLI::App& golden) {
       ->add_option("-o,--output", verb->pictures,
                    "folder for what differs: pictures of image, frame and difference, and the frame itself")
       ->type_name("DIR");
-  command->add_option("--junit", verb->junit_file, "write the results as JUnit XML; - for stdout")->type_name("F.xml");
-  add_annotate_option(*command, verb->annotate);
+  add_report_options(*command, verb->reports);
   add_time_limit_option(*command, verb->time_limit_seconds);
   add_cpu_options(*command, verb->cpu);
   add_fma_option(*command, verb->host_fma);

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "app/dialect.h"
+#include "app/mismatch.h"
 
 namespace twinshade {
 namespace {
@@ -131,16 +132,7 @@ Json golden_json(const GoldenRow& row) {
   json["result"] = words(row.result);
   if (row.result == GoldenResult::within) json["ulp"] = row.ulp;
   if (!row.error.empty()) json["error"] = row.error;
-  if (row.comparison) {
-    const Comparison& c = *row.comparison;
-    json["shaded_pixels"] = c.shaded_pixels;
-    json["coverage_differs"] = c.coverage_differs;
-    json["id_differs"] = c.id_differs;
-    json["depth_differs"] = c.depth_differs;
-    json["pixels_differ"] = c.pixels_differ;
-    json["max_ulp"] = ulp_json(c.max_ulp);
-    json["first_difference"] = row.first_difference;
-  }
+  if (row.comparison) add_comparison(json, *row.comparison, row.first_difference);
   json["changed"] = changed_names(row.changes);
   if (!row.findings.empty()) json["outside_exact_dialect"] = findings_json(row.findings);
   json["golden_frame"] = row.golden_frame.empty() ? Json(nullptr) : Json(row.golden_frame);
@@ -149,20 +141,21 @@ Json golden_json(const GoldenRow& row) {
   return json;
 }
 
-std::vector<JUnitCase> golden_junit(const std::vector<GoldenRow>& rows) {
-  std::vector<JUnitCase> cases;
+std::vector<CaseResult> golden_results(const std::vector<GoldenRow>& rows) {
+  std::vector<CaseResult> cases;
   for (const GoldenRow& row : rows) {
-    JUnitCase c;
+    CaseResult c;
     c.name = place(row);
     c.seconds = row.seconds;
     c.file = row.shader_file.empty() ? manifest_path(row.folder) : row.shader_file;
     if (!row.passes()) {
-      c.result = row.result == GoldenResult::no_backend ? JUnitCase::Result::error : JUnitCase::Result::failed;
+      c.result = row.result == GoldenResult::no_backend ? CaseResult::Result::error : CaseResult::Result::failed;
       c.message = row.error;
       if (row.error.empty())
         c.message = fmt::format("{} of {} pixels differ from the golden image: {}", row.comparison->pixels_differ,
                                 row.comparison->shaded_pixels, cause(row));
       c.text = row.error.empty() ? failure_text(row) : "";
+      c.pictures = row.pictures;
     }
     cases.push_back(std::move(c));
   }

@@ -1,11 +1,11 @@
-// What golden update and golden check found: as tables, as JSON, as JUnit cases.
+// What golden update and golden check found: as tables, as JSON, as results of cases.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "app/junit.h"
+#include "app/case_result.h"
 #include "app/output.h"
 #include "app/table.h"
 #include "cpu_shaders/lint/lint.h"
@@ -47,6 +47,7 @@ struct GoldenRow {
   std::string golden_frame, frame;       // hashes; empty where there is none
   std::string shader_file;               // of a user's shader
   std::string written;                   // image, of update
+  CaseResult::Pictures pictures;         // where they differ, for a report that shows them
   double seconds = 0;
 
   bool passes() const { return result == GoldenResult::same || result == GoldenResult::within; }
@@ -67,6 +68,6 @@ std::string check_summary(const std::vector<GoldenRow>& rows, std::uint64_t ulp)
 std::string update_summary(const std::vector<GoldenRow>& rows);
 
 Json golden_json(const GoldenRow& row);
-std::vector<JUnitCase> golden_junit(const std::vector<GoldenRow>& rows);
+std::vector<CaseResult> golden_results(const std::vector<GoldenRow>& rows);
 
 }  // namespace twinshade

@@ -357,6 +357,7 @@ TEST_CASE("an empty name of what to write is refused by its option") {
   check_refused({"bake", "quad", "-o", "-"}, {"-o -: ", "name a file"});
   check_refused({"list", "--json", ""}, {"--json '': the name is empty; name the file to write"});
   check_refused({"check", "a.frag", "--junit", ""}, {"--junit '': the name is empty"});
+  check_refused({"check", "a.frag", "--html", ""}, {"--html '': the name is empty"});
   check_refused({"eval", "a.frag", "--cases", "a.json", "--junit", ""}, {"--junit '': the name is empty"});
 }
 

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 #include <algorithm>
 
+#include "base/file.h"
 #include "run_twinshade.h"
 
 namespace twinshade {
@@ -139,6 +140,21 @@ TEST_CASE("a sum that a driver may refactor is found, and layer, pixel, inputs a
   CHECK(first["ulp"].get<int>() > 0);
   CHECK(first["inputs"].size() == 5);
   CHECK(first["a_hex"] != first["b_hex"]);
+
+  std::vector<std::string> reported = options;
+  reported.insert(reported.end(), {"--html", folder / "r.html", "--junit", folder / "r.xml"});
+  CHECK(run_twinshade(small_quad({"compare", "--annotate", "github"}, reported)).out.find("::error file=" + shader) !=
+        std::string::npos);
+  const std::string page = read_file(folder / "r.html"), junit = read_file(folder / "r.xml");
+  CHECK(junit.find("tests=\"1\" failures=\"1\" errors=\"0\"") != std::string::npos);
+  CHECK(junit.find("v_position.y = ") != std::string::npos);
+  CHECK(page.find("v_position.y = ") != std::string::npos);
+  CHECK(page.find(", line 5</div>") != std::string::npos);  // the first line outside the dialect
+  std::size_t pictures = 0;
+  for (std::size_t at = page.find("base64,iVBORw0KGgo"); at != std::string::npos;  // a PNG's first bytes
+       at = page.find("base64,iVBORw0KGgo", at + 1))
+    ++pictures;
+  CHECK(pictures == 3);
 }
 
 TEST_CASE("an integer output that differs is found, as integers, and so is what differs in a second output") {

@@ -120,7 +120,7 @@ TEST_CASE("a shader that changed by one ULP is found, and named as the cause; up
   CHECK(golden_row(run, "mine")["changed"] == Json({"shader"}));
 
   folder.file("mine.frag", edited(kGoldenShader, "1.000000000", "1.000000119"));
-  run = check(goldens, {"-o", folder / "out", "--junit", folder / "j.xml"});
+  run = check(goldens, {"-o", folder / "out", "--junit", folder / "j.xml", "--html", folder / "r.html"});
   CHECK(run.code == 1);
   const Json row = golden_row(run, "mine");
   CHECK(row["result"] == "DIFFERS");
@@ -135,6 +135,9 @@ TEST_CASE("a shader that changed by one ULP is found, and named as the cause; up
   CHECK(run.err.find("0 of 1 the same") != std::string::npos);
   for (const char* name : {"mine.golden.png", "mine.cpu.png", "mine.cpu.difference.png", "mine.cpu.exr"})
     CHECK_MESSAGE(fs::exists(folder / "out/" + name), name);
+  const std::string page = golden_bytes(folder / "r.html");
+  CHECK(page.find("<figcaption>golden</figcaption>") != std::string::npos);
+  CHECK(page.find("the shader's source has changed") != std::string::npos);
   const std::string junit = golden_bytes(folder / "j.xml");
   CHECK(junit.find("failures=\"1\"") != std::string::npos);
   CHECK(junit.find("the shader's source has changed") != std::string::npos);

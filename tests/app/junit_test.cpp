@@ -2,10 +2,10 @@
 
 #include <doctest/doctest.h>
 
+using twinshade::CaseResult;
 using twinshade::github_annotations;
 using twinshade::junit_xml;
-using twinshade::JUnitCase;
-using Result = JUnitCase::Result;
+using Result = CaseResult::Result;
 
 TEST_CASE("an annotation stands at the line that the message begins with, else at the shader") {
   CHECK(github_annotations({{"fine", Result::passed, "", "", 0, "fine.frag", 3}}) == "");
@@ -19,11 +19,11 @@ TEST_CASE("an annotation stands at the line that the message begins with, else a
 }
 
 TEST_CASE("an annotation's file may have colons, blanks and commas in its name, and so may an included one") {
-  const auto place = [](const JUnitCase& c) {
+  const auto place = [](const CaseResult& c) {
     const std::string line = github_annotations({c});
     return line.substr(8, line.find(",title=") - 8);
   };
-  const JUnitCase colons{"n", Result::error, "a:7:b.frag:2: 'x' : undeclared identifier", "", 0, "a:7:b.frag", 0};
+  const CaseResult colons{"n", Result::error, "a:7:b.frag:2: 'x' : undeclared identifier", "", 0, "a:7:b.frag", 0};
   CHECK(place(colons) == "file=a%3A7%3Ab.frag,line=2");
   CHECK(place({"n", Result::error, "err]]>%0A::x,y.frag:3: no", "", 0, "err]]>%0A::x,y.frag", 0}) ==
         "file=err]]>%250A%3A%3Ax%2Cy.frag,line=3");
@@ -33,7 +33,7 @@ TEST_CASE("an annotation's file may have colons, blanks and commas in its name, 
 }
 
 TEST_CASE("services know ./a.frag as a.frag") {
-  const std::vector<JUnitCase> cases{{"./a.frag", Result::failed, "differs", "", 0, "./a.frag", 7}};
+  const std::vector<CaseResult> cases{{"./a.frag", Result::failed, "differs", "", 0, "./a.frag", 7}};
   CHECK(github_annotations(cases) == "::error file=a.frag,line=7,title=a.frag::differs\n");
   CHECK(junit_xml("s", cases).find("name=\"a.frag\"") != std::string::npos);
 }

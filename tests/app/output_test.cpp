@@ -326,6 +326,17 @@ TEST_CASE("JUnit XML goes to stdout if asked, alone, but not beside JSON") {
   CHECK(refused.code == 2);
   CHECK(refused.out.empty());
   CHECK(refused.err == "twinshade: --json - and --junit -: both go to stdout; name a file for one of them\n");
+  both = eval;
+  both.insert(both.end(), {"--html", "-"});
+  CHECK(run_twinshade(both).err ==
+        "twinshade: --junit - and --html -: both go to stdout; name a file for one of them\n");
+  both = {eval.begin(), eval.end() - 2};
+  both.insert(both.end(), {"--html", folder / "x", "--json", folder / "x"});
+  CHECK(run_twinshade(both).err ==
+        "twinshade: --json and --html both write " + (folder / "x") + ": name another file for one of them\n");
+  both = {eval.begin(), eval.end() - 2};
+  both.insert(both.end(), {"--html", "-"});
+  CHECK(run_twinshade(both).out.find("<!DOCTYPE html>") == 0);
 }
 
 TEST_CASE("files of eval are there even where nobody reads the text") {

@@ -24,12 +24,6 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMostUlp = UINT32_MAX;  // there are no more floats
 
-Backend backend_of(const std::string& name) {
-  for (const Backend backend : kBackends)
-    if (name == backend_name(backend)) return backend;
-  return Backend::cpu;  // require_backends refused the others
-}
-
 struct CheckVerb {
   CLI::App* command = nullptr;
   CommonOptions common;
@@ -51,7 +45,7 @@ struct CheckVerb {
     options.on.clear();
     for (const std::string& name : on) {
       EvaluationTarget target;
-      target.backend = backend_of(name);
+      target.backend = backend_named(name);
       target.number = cpu.number.value_or(natural_number(cpu.isa.value_or(machine_isa())));
       target.isa = cpu.isa;
       if (target.number == Number::float64) throw UserError("--number float64: doubles are never the bits of floats");

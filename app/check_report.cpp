@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/dialect.h"
+#include "app/first_line_report.h"
 #include "app/table.h"
 
 namespace twinshade {
@@ -14,12 +15,6 @@ namespace {
 std::string ulp_text(std::uint64_t ulp) {
   if (ulp == 0) return "the sign of zero alone";
   return ulp == UINT64_MAX ? "no distance in ULP" : fmt::format("{} ULP", ulp);
-}
-
-std::string components_text(Scalar scalar, const std::uint32_t* bits, std::uint32_t components) {
-  std::string text;
-  for (std::uint32_t c = 0; c < components; ++c) text += (c > 0 ? ", " : "") + value_text(scalar, bits[c]);
-  return components == 1 ? text : "(" + text + ")";
 }
 
 // Of the row that differs; of the whole quad where there is one.
@@ -39,38 +34,14 @@ std::string input_text(const Counterexample& example) {
   return text;
 }
 
-std::string place_text(const ProbedStatement& statement) {
-  return fmt::format("{}:{}{}", statement.file, statement.line,
-                     statement.last_line > statement.line ? fmt::format("-{}", statement.last_line) : "");
-}
-
-std::vector<LintFinding> findings_at(const CheckedShader& shader, const ProbedStatement& statement) {
-  std::vector<LintFinding> list;
-  for (const LintFinding& finding : shader.findings)
-    if (finding.file == statement.file && finding.line >= statement.line && finding.line <= statement.last_line)
-      list.push_back(finding);
-  return list;
-}
-
-std::string line_text(const CheckedShader& shader, const Counterexample& example) {
-  if (!example.first_line.difference) return fmt::format("  first line that differs: {}\n", example.first_line.note);
-  const LineDifference& d = *example.first_line.difference;
-  std::string text = fmt::format("  first line that differs: {}: {}{}: {} {}, {} {}\n", place_text(d.statement),
-                                 d.statement.what, d.occurrence > 1 ? fmt::format(", time {}", d.occurrence) : "",
-                                 backend_name(example.a), components_text(d.scalar, d.a.data(), d.components),
-                                 backend_name(example.b), components_text(d.scalar, d.b.data(), d.components));
-  if (!d.cause.empty()) text += fmt::format("    {}: {}\n", place_text(d.statement), d.cause);
-  for (const LintFinding& finding : findings_at(shader, d.statement)) text += "    " + describe(finding) + "\n";
-  return text;
-}
-
 std::string counterexample_text(const CheckedShader& shader) {
   const Counterexample& example = *shader.counterexample;
   const RowDifference& d = example.difference;
   std::string text =
       fmt::format("  {}: {} {}, {} {}: {}\n", d.output, backend_name(example.a), value_text(d.scalar, d.a),
                   backend_name(example.b), value_text(d.scalar, d.b), ulp_text(d.ulp));
-  text += "  smallest input that shows it:\n" + input_text(example) + line_text(shader, example);
+  text += "  smallest input that shows it:\n" + input_text(example) +
+          first_line_text(example.first_line, backend_name(example.a), backend_name(example.b), shader.findings);
   if (example.constant_folding)
     text +=
         "  cause: constant folding; it is gone when neither compiler computes constants (glslang does in double, Mesa "
@@ -114,25 +85,6 @@ Json values_json(const Counterexample& example) {
   return list;
 }
 
-Json line_json(const CheckedShader& shader, const Counterexample& example) {
-  if (!example.first_line.difference) return {{"note", example.first_line.note}};
-  const LineDifference& d = *example.first_line.difference;
-  const auto values = [&](const std::array<std::uint32_t, 4>& bits) {
-    Json list = Json::array();
-    for (std::uint32_t c = 0; c < d.components; ++c) list.push_back(value_text(d.scalar, bits[c]));
-    return list;
-  };
-  return {{"file", d.statement.file},
-          {"line", d.statement.line},
-          {"last_line", d.statement.last_line},
-          {"value", d.statement.what},
-          {"occurrence", d.occurrence},
-          {"a", values(d.a)},
-          {"b", values(d.b)},
-          {"cause", d.cause.empty() ? Json(nullptr) : Json(d.cause)},
-          {"findings", findings_json(findings_at(shader, d.statement))}};
-}
-
 Json counterexample_json(const CheckedShader& shader) {
   if (!shader.counterexample) return nullptr;
   const Counterexample& example = *shader.counterexample;
@@ -144,7 +96,7 @@ Json counterexample_json(const CheckedShader& shader) {
           {"b_value", value_text(d.scalar, d.b)},
           {"ulp", ulp_json(d.ulp)},
           {"inputs", values_json(example)},
-          {"first_line", line_json(shader, example)},
+          {"first_line", first_line_json(example.first_line, shader.findings)},
           {"constant_folding", example.constant_folding}};
 }
 

@@ -8,6 +8,7 @@
 
 #include "app/compare_report.h"
 #include "app/dialect.h"
+#include "app/first_line_report.h"
 #include "app/junit.h"
 #include "app/machines.h"
 #include "app/mismatch.h"
@@ -18,6 +19,8 @@
 #include "app/subject.h"
 #include "app/table.h"
 #include "base/error.h"
+#include "check/pixel_row.h"
+#include "cpu_shaders/machine.h"
 #include "golden/compare_frames.h"
 #include "golden/pictures.h"
 
@@ -228,7 +231,37 @@ class CompareRun {
     row.comparison.attributes_differ = again.attributes_differ;
     row.findings = findings_of(shader.source);
     row.first_difference = difference_json(again.first, *a);
-    row.description = describe_mismatch(row.name(), row.a, row.b, again, *a) + describe_findings(row.findings);
+    row.description = describe_mismatch(row.name(), row.a, row.b, again, *a);
+    if (again.first && again.first->layer == "color" && row.is_mismatch()) {
+      row.first_line = look_inside(shader, row, *a, *again.first);
+      row.description += first_line_text(*row.first_line, row.a, row.b, row.findings);
+    }
+    row.description += describe_findings(row.findings);
+  }
+
+  EvaluationTarget target(const std::string& backend) const {
+    EvaluationTarget target;
+    target.backend = backend_named(backend);
+    target.number = verb_.cpu.number.value_or(natural_number(verb_.cpu.isa.value_or(machine_isa())));
+    target.isa = verb_.cpu.isa;
+    return target;
+  }
+
+  // The pixel's inputs once more, outside of the frame, with probes in the shader.
+  FirstLine look_inside(const Shading& shader, const ComparedShader& row, const Frame& frame, const Difference& at) {
+    output_.progress(fmt::format("looking for the first line of {} that differs", shader.label()));
+    FirstLine line;
+    try {
+      EvaluatorOptions options;
+      options.host_fma = verb_.host_fma;
+      options.time_limit_seconds = verb_.time_limit_seconds;
+      Evaluator evaluator(options);
+      const ValueTable table = row_of_pixel(evaluator.reflection(shader.source), subject_.bundle, frame, at.x, at.y);
+      line = first_differing_line(evaluator, shader.source, table, 0, target(row.a), target(row.b));
+    } catch (const std::runtime_error& error) {  // UserError, BackendError
+      line.note = std::string("not looked for: ") + error.what();
+    }
+    return line;
   }
 
   ComparedShader row_of(const Shading& shader, const std::string& a, const std::string& b) const {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/dialect.h"
+#include "app/first_line_report.h"
 #include "app/mismatch.h"
 #include "app/options.h"
 
@@ -58,6 +59,7 @@ Json compared_json(const ComparedShader& row) {
     return json;
   }
   add_comparison(json, row.comparison, row.first_difference);
+  json["first_line"] = row.first_line ? first_line_json(*row.first_line, row.findings) : Json(nullptr);
   json["outside_exact_dialect"] = findings_json(row.findings);
   json["verdict"] = verdict(row);
   json["a_frame"] = row.hash_a;
@@ -82,7 +84,11 @@ std::vector<CaseResult> compared_results(const std::vector<ComparedShader>& rows
       c.message = fmt::format("{} of {} pixels differ", row.comparison.pixels_differ, row.comparison.shaded_pixels);
       c.text = row.description;
       c.pictures = row.pictures;
-      if (!row.findings.empty() && row.findings.front().file == shader_file) c.line = row.findings.front().line;
+      if (row.first_line && row.first_line->difference) {
+        const ProbedStatement& first = row.first_line->difference->statement;
+        c.message += ", first in " + place_text(first);
+        c.file = first.file, c.line = first.line;
+      }
     }
     cases.push_back(std::move(c));
   }

@@ -1,11 +1,13 @@
 // What compare found, for people, as JSON and as results of cases.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/case_result.h"
 #include "app/output.h"
+#include "check/first_line.h"
 #include "cpu_shaders/lint/lint.h"
 #include "golden/compare_frames.h"
 #include "raster/renderer.h"
@@ -22,8 +24,9 @@ struct ComparedShader {
   std::string hash_a, hash_b;
   Json first_difference;
   std::string description;
-  std::vector<LintFinding> findings;  // where they differ: what in the shader may explain it
-  CaseResult::Pictures pictures;      // where they differ, for a report that shows them
+  std::vector<LintFinding> findings;    // where they differ: what in the shader may explain it
+  std::optional<FirstLine> first_line;  // where colours differ, exact attributes
+  CaseResult::Pictures pictures;        // where they differ, for a report that shows them
 
   std::string name() const { return output.empty() ? technique : technique + ": " + output; }
   // Frames that should be one and are not: native attributes may differ, and so may denormals on softpipe, which keeps

@@ -135,9 +135,7 @@ struct EvalVerb {
   std::vector<EvaluationTarget> named_targets() const {
     std::vector<EvaluationTarget> targets;
     for (const std::string& name : backends)
-      for (const Backend backend : kBackends)
-        if (name == backend_name(backend))
-          targets.push_back({backend, number.value_or(natural_number(machine_isa())), {}});
+      targets.push_back({backend_named(name), number.value_or(natural_number(machine_isa())), {}});
     return targets;
   }
 

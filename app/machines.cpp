@@ -63,6 +63,13 @@ void require_backends(const std::vector<std::string>& names) {
   }
 }
 
+Backend backend_named(const std::string& name) {
+  const auto found = std::find_if(std::begin(kBackends), std::end(kBackends),
+                                  [&](const Backend backend) { return name == backend_name(backend); });
+  TWINSHADE_CHECK_EQ(found != std::end(kBackends), true);
+  return *found;
+}
+
 Frame Machines::draw(const std::string& backend, const Bundle& bundle, const ShaderSource& source, DrawOptions options,
                      const Frame* cpu_frame) {
   options.tile_size = cpu_.tile_size;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/options.h"
+#include "evaluate/evaluator.h"
 #include "raster/renderer.h"
 
 namespace twinshade {
@@ -15,6 +16,9 @@ namespace twinshade {
 const std::vector<std::string>& backend_names();
 // UserError with the nearest names where one is unknown or named twice.
 void require_backends(const std::vector<std::string>& names);
+
+// One of those; another name is a broken invariant.
+Backend backend_named(const std::string& name);
 
 // What a frame's colour may be (DrawOptions::output).
 struct FrameOutput {

@@ -140,6 +140,13 @@ TEST_CASE("a sum that a driver may refactor is found, and layer, pixel, inputs a
   CHECK(first["ulp"].get<int>() > 0);
   CHECK(first["inputs"].size() == 5);
   CHECK(first["a_hex"] != first["b_hex"]);
+  const auto line = result["first_line"];
+  CHECK(line["file"] == shader);
+  CHECK(line["line"] == 5);
+  CHECK(line["value"] == "sum");
+  CHECK(line["a"] != line["b"]);
+  CHECK(line["findings"][0]["rule"] == "precise");
+  CHECK(table.out.find("first line that differs: " + shader + ":5: sum: cpu ") != std::string::npos);
 
   std::vector<std::string> reported = options;
   reported.insert(reported.end(), {"--html", folder / "r.html", "--junit", folder / "r.xml"});
@@ -149,12 +156,40 @@ TEST_CASE("a sum that a driver may refactor is found, and layer, pixel, inputs a
   CHECK(junit.find("tests=\"1\" failures=\"1\" errors=\"0\"") != std::string::npos);
   CHECK(junit.find("v_position.y = ") != std::string::npos);
   CHECK(page.find("v_position.y = ") != std::string::npos);
-  CHECK(page.find(", line 5</div>") != std::string::npos);  // the first line outside the dialect
+  CHECK(page.find(", line 5</div>") != std::string::npos);
   std::size_t pictures = 0;
   for (std::size_t at = page.find("base64,iVBORw0KGgo"); at != std::string::npos;  // a PNG's first bytes
        at = page.find("base64,iVBORw0KGgo", at + 1))
     ++pictures;
   CHECK(pictures == 3);
+}
+
+TEST_CASE("the first line that differs is looked for with the scene's textures, and not where a pixel is not enough") {
+  const std::vector<std::string> opengl = opengl_backends();
+  if (opengl.empty()) return;
+  const Folder folder;
+  const auto first_line = [&](const std::string& shader) {
+    const Run run = run_twinshade(small_quad(
+        {"compare"}, {"--shader", folder.file("a.frag", shader), "--on", "cpu," + opengl.front(), "--json", "-"}));
+    CHECK_MESSAGE(run.code == 1, run.err);
+    return run.json()["results"][0]["first_line"];
+  };
+  const std::string declarations =
+      "in vec2 v_uv;\nin vec2 v_lightmap_uv;\nuniform sampler2DArray coefficients_h4;\nout vec4 color;\n";
+  const auto of_texture = first_line(declarations +
+                                     "void main() {\n"
+                                     "  vec3 c = texelFetch(coefficients_h4, ivec3(v_lightmap_uv * 16.0, 0), 0).rgb;\n"
+                                     "  float x = sin(c.x * 100.0 + v_uv.x);\n"
+                                     "  color = vec4(x, c);\n"
+                                     "}\n");
+  CHECK(of_texture["line"] == 7);
+  CHECK(of_texture["value"] == "x");
+  const auto note = [&](const std::string& value) {
+    return first_line(declarations + "void main() { color = vec4(sin(" + value + " * 123.0)); }\n")["note"]
+        .get<std::string>();
+  };
+  CHECK(note("dFdx(v_uv.x)").find("not looked for: the shader takes derivatives") == 0);
+  CHECK(note("gl_FragCoord.x").find("not looked for: the shader reads gl_FragCoord") == 0);
 }
 
 TEST_CASE("an integer output that differs is found, as integers, and so is what differs in a second output") {

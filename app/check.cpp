@@ -91,7 +91,6 @@ struct CheckVerb {
                  {"make_exact", options.make_exact},
                  {"shaders", list}});
     write_reports(output, {"twinshade check", "", cases, provenance.json()});
-    // Behind the files: a reader that closes the pipe ends the program.
     output.text(check_table(results));
     for (const CheckedShader& shader : results)
       if (const std::string text = describe_check(shader, options.make_exact); !text.empty()) output.text("\n" + text);

@@ -219,7 +219,7 @@ struct EvalVerb {
   }
 
   int report(const std::vector<EvaluatedCase>& cases, bool many, const Output& output) const {
-    write_files(cases, output);  // first: whoever reads the text may close the pipe, which ends the program
+    write_files(cases, output);
     output.text(eval_text(cases, many));
     annotate_failures(cases, output);
     const auto has_error = [](const EvaluatedCase& c) { return c.has_error(); };

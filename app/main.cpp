@@ -3,14 +3,13 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <cerrno>
 #include <csignal>
 #include <cstdio>
-#include <cstring>
-#include <iostream>
 #include <new>
+#include <sstream>
 
 #include "app/options.h"
+#include "app/standard_output.h"
 #include "base/error.h"
 #include "base/names.h"
 #include "base/utf8.h"
@@ -62,8 +61,9 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) {  // --help, --version
-      const int code = app.exit(error);
-      if (!std::cout.flush()) throw UserError(std::string("stdout: cannot be written: ") + std::strerror(errno));
+      std::ostringstream text;
+      const int code = app.exit(error, text);
+      write_to_stdout(text.str(), ResultsInFiles::none);
       return code;
     }
     std::string verb;
@@ -73,7 +73,9 @@ int run(int argc, char** argv) {
   for (const Verb& verb : verbs)
     if (verb.command->parsed()) {
       require_names(*verb.command);
-      return run_verb(verb);
+      const int code = run_verb(verb);
+      require_stdout_written();
+      return code;
     }
   return 2;
 }
@@ -108,6 +110,7 @@ int main(int argc, char** argv) {
 #if TWINSHADE_HAS_GL
   if (const std::optional<int> worker = twinshade::run_gl_worker_if_asked(argc, argv)) return *worker;
 #endif
+  twinshade::survive_readers_that_leave();
   twinshade::keep_standard_numbers();
   return twinshade::run_and_report(argc, argv);
 }

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <iterator>
 
+#include "app/standard_output.h"
 #include "base/error.h"
 #include "base/utf8.h"
 #include "cpu_shaders/shader_source.h"
@@ -21,11 +22,6 @@ namespace twinshade {
 namespace fs = std::filesystem;
 
 namespace {
-
-void write_to_stdout(const std::string& text) {
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
-    throw UserError(std::string("stdout: cannot be written: ") + std::strerror(errno));
-}
 
 // Whether two paths are one regular file, or would be if it were there. What is written to a device destroys nothing.
 bool same_file(const std::string& a, const std::string& b) {
@@ -70,6 +66,10 @@ bool Output::document_on_stdout() const {
   return options_.json == "-" || reports_.junit == "-" || reports_.html == "-";
 }
 
+ResultsInFiles Output::results_in_files() const {
+  return files().empty() && folder_.empty() ? ResultsInFiles::none : ResultsInFiles::some;
+}
+
 void Output::claim(std::vector<std::string> names) {
   claimed_.insert(std::make_move_iterator(names.begin()), std::make_move_iterator(names.end()));
   for (const std::string& name : claimed_) {
@@ -106,7 +106,7 @@ bool Output::is_in_folder(const std::string& file) const {
 
 void Output::write_to(const std::string& file, const std::string& text) const {
   if (file == "-") {
-    write_to_stdout(text);
+    write_to_stdout(text, results_in_files());
   } else if (!file.empty()) {
     if (is_in_folder(file)) make_folder(folder_);
     write_file(file, text);
@@ -143,7 +143,7 @@ void Output::text(const std::string& text) const {
   if (document_on_stdout())
     std::fputs(text.c_str(), stderr);
   else
-    write_to_stdout(text);
+    write_to_stdout(text, results_in_files());
 }
 
 void Output::note(const std::string& line) const {

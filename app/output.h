@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/options.h"
+#include "app/standard_output.h"
 #include "base/file.h"
 
 namespace twinshade {
@@ -15,7 +16,8 @@ namespace twinshade {
 using Json = nlohmann::ordered_json;
 
 // Results are read on stdout. When a document takes stdout (--json -, --junit -, --html -), text for people moves to
-// stderr, so that what a program reads is that alone. UserError where stdout cannot be written.
+// stderr, so that what a program reads is that alone. UserError where stdout cannot be written; files are
+// written all the same.
 class Output {
  public:
   // Refuses files that cannot be written, and one file for two results, before any work is done. reports: what
@@ -52,6 +54,7 @@ class Output {
   // What is said of a file, and the file; none for stdout.
   std::vector<std::pair<std::string, std::string>> files() const;
   bool document_on_stdout() const;
+  ResultsInFiles results_in_files() const;
 
   const CommonOptions& options_;
   const ReportOptions reports_;

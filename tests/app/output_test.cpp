@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -129,6 +130,47 @@ TEST_CASE("a reader that has enough ends the program without a word") {
   std::string err;
   CHECK(run_in_shell(folder, "translate h4 | head -n 1 >/dev/null", err) == 0);
   CHECK(err.empty());
+}
+
+TEST_CASE("results are in files even where nobody reads the table, or it cannot be written") {
+  const Folder folder;
+  const std::string shader = folder.file("add.frag", kAddingShader), cases = folder.file("add.json", kCases),
+                    json = folder / "out.json", junit = folder / "out.xml";
+  std::vector<std::vector<std::string>> runs{
+      small_quad({"render"}, {"--technique", "lightmap", "--json", json}),
+      small_quad({"bake"}, {"--technique", "lightmap", "-o", folder / "quad.bundle", "--json", json}),
+      {"list", "maps", "--json", json},
+      {"translate", "h4", "--json", json},
+      {"eval", shader, "--cases", cases, "--on", "cpu", "--json", json, "--junit", junit}};
+  if (why_missing("egl").empty()) {
+    const std::string both = "cpu,egl";
+    runs.push_back({"check", shader, "--on", both, "--no-timing", "--json", json, "--junit", junit});
+    runs.push_back(small_quad({"compare"}, {"--technique", "lightmap,h4", "--on", both, "--json", json}));
+  }
+  for (const std::vector<std::string>& arguments : runs) {
+    CAPTURE(arguments[0]);
+    const Run unread = run_twinshade_unread(arguments);
+    CHECK(unread.code == 0);
+    CHECK_MESSAGE(unread.err.find("twinshade:") == std::string::npos, unread.err);
+    REQUIRE(fs::exists(json));
+    CHECK(nlohmann::json::parse(read_file(json)).size() > 1);
+    fs::remove(json);
+
+    std::string err, line;
+    for (const std::string& argument : arguments) line += "'" + argument + "' ";
+    CHECK(run_in_shell(folder, line + ">/dev/full", err) == 2);
+    CHECK_MESSAGE(err.find("twinshade: stdout: cannot be written: ") != std::string::npos, err);
+    CHECK(fs::exists(json));
+  }
+}
+
+TEST_CASE("without results in files a reader that has left ends the run") {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"list", "maps", "--json", "-"}, {"list", "maps"}, {"translate", "h4"}, {"--help"}}) {
+    const Run unread = run_twinshade_unread(arguments);
+    CHECK(unread.code == 128 + SIGPIPE);
+    CHECK_MESSAGE(unread.err.find("twinshade:") == std::string::npos, unread.err);
+  }
 }
 
 TEST_CASE("results go to pipes, links and stdout, which stay what they are") {

@@ -28,8 +28,8 @@ std::string read_whole(const std::string& path) {
   return text.str();
 }
 
-// until: see run_twinshade_until; empty: the run is waited for.
-Run run(const std::vector<std::string>& arguments, const std::function<bool()>& until) {
+// until: see run_twinshade_until; empty: the run is waited for. stdout_to: an open descriptor; -1: Run's.
+Run run(const std::vector<std::string>& arguments, const std::function<bool()>& until, int stdout_to = -1) {
   std::filesystem::create_directories(TWINSHADE_TEST_CACHE);
   ::setenv("TWINSHADE_CACHE", TWINSHADE_TEST_CACHE, 1);
   const Folder folder;
@@ -44,7 +44,10 @@ Run run(const std::vector<std::string>& arguments, const std::function<bool()>& 
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT, 0600);
+  if (stdout_to >= 0)
+    posix_spawn_file_actions_adddup2(&actions, stdout_to, STDOUT_FILENO);
+  else
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT, 0600);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), O_WRONLY | O_CREAT, 0600);
   pid_t child = 0;
   const int failed = ::posix_spawn(&child, program.c_str(), &actions, nullptr, argv.data(), environ);
@@ -69,6 +72,15 @@ Run run(const std::vector<std::string>& arguments, const std::function<bool()>& 
 }  // namespace
 
 Run run_twinshade(const std::vector<std::string>& arguments) { return run(arguments, nullptr); }
+
+Run run_twinshade_unread(const std::vector<std::string>& arguments) {
+  int ends[2];
+  REQUIRE(::pipe2(ends, O_CLOEXEC) == 0);
+  ::close(ends[0]);
+  const Run ended = run(arguments, nullptr, ends[1]);
+  ::close(ends[1]);
+  return ended;
+}
 
 Run run_twinshade_until(const std::vector<std::string>& arguments, const std::function<bool()>& until) {
   return run(arguments, until);

@@ -17,6 +17,8 @@ struct Run {
 
 // With a cache of the tests' own. Never through a shell: arguments arrive as they are.
 Run run_twinshade(const std::vector<std::string>& arguments);
+// The same with a stdout whose reader has left.
+Run run_twinshade_unread(const std::vector<std::string>& arguments);
 // The same of a run that gets SIGTERM as soon as `until` holds, where it has not ended by then.
 Run run_twinshade_until(const std::vector<std::string>& arguments, const std::function<bool()>& until);
 

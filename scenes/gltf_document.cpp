@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "scenes/read_for_model.h"
 
 namespace twinshade {
 namespace {
@@ -270,7 +271,7 @@ void GltfDocument::read_buffers() {
       bytes = resource(buffer["uri"].get<std::string>(), what, &file);
       if (!file.empty()) {
         files_.push_back(file);
-        bytes = read_file(file);
+        bytes = read_for_model(path_, [&] { return read_file(file); });
       }
     } else if (i == 0) {
       bytes = binary_chunk_;

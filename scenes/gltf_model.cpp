@@ -13,6 +13,7 @@
 #include "scenes/gltf_document.h"
 #include "scenes/gltf_ignored.h"
 #include "scenes/material_image.h"
+#include "scenes/read_for_model.h"
 
 namespace twinshade {
 namespace {
@@ -433,9 +434,11 @@ class Reader {
     if (const auto known = images_.find(key); known != images_.end()) return known->second;
     const GltfDocument::ImageSource source = document_.image_of_texture(std::size_t(texture));
     if (!source.file.empty()) model_.files.push_back(source.file);
-    const DecodedImage decoded =
-        source.file.empty() ? decode_image_memory(source.bytes, source.name) : decode_image_file(source.file);
-    model_.images.push_back(is_normal ? normal_image(decoded, scale) : albedo_image(decoded, source.name));
+    model_.images.push_back(read_for_model(document_.path(), [&] {
+      const DecodedImage decoded =
+          source.file.empty() ? decode_image_memory(source.bytes, source.name) : decode_image_file(source.file);
+      return is_normal ? normal_image(decoded, scale) : albedo_image(decoded, source.name);
+    }));
     return images_[key] = int(model_.images.size()) - 1;
   }
 

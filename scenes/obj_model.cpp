@@ -22,6 +22,7 @@
 #include "scenes/mtl_lines.h"
 #include "scenes/obj_indices.h"
 #include "scenes/obj_lines.h"
+#include "scenes/read_for_model.h"
 
 namespace twinshade {
 namespace {
@@ -220,12 +221,13 @@ class Reader {
     const auto key = std::make_pair(path, use);
     if (const auto known = images_.find(key); known != images_.end()) return known->second;
     model_.files.push_back(path);
-    const DecodedImage decoded = decode_image_file(path);
+    const DecodedImage decoded = read_for_model(path_, [&] { return decode_image_file(path); });
     if (use == Use::bumps && !looks_like_normal_map(decoded)) {
       model_.notes.push_back("bump map " + name + " is a height field, not a normal map: ignored");
       return images_[key] = -1;
     }
-    model_.images.push_back(use == Use::colours ? albedo_image(decoded, path) : normal_image(decoded, 1));
+    model_.images.push_back(read_for_model(
+        path_, [&] { return use == Use::colours ? albedo_image(decoded, path) : normal_image(decoded, 1); }));
     return images_[key] = int(model_.images.size()) - 1;
   }
 

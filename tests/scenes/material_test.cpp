@@ -71,8 +71,20 @@ TEST_CASE("a floating-point picture with a bad colour is refused, naming it and 
     write_image(folder.name("colour.exr"), 4, 3, 3, texels);
     const std::string message = user_error([&] { load_scene(model); });
     INFO(message);
-    CHECK(message.find("colour.exr: the colour at pixel (2, 1)") != std::string::npos);
+    CHECK(message.find("m.obj: " + folder.name("colour.exr") + ": the colour at pixel (2, 1)") != std::string::npos);
   }
+}
+
+TEST_CASE("what is wrong with a picture names the model and the picture") {
+  TemporaryFolder folder;
+  folder.write("damaged.png", "\x89PNG, cut");
+  for (const char* picture : {"missing.png", "damaged.png"})
+    for (const char* use : {"map_Kd ", "norm ", "map_Bump "}) {
+      const std::string model = triangle_with(folder, std::string(use) + picture + "\n");
+      const std::string message = user_error([&] { load_scene(model); });
+      INFO(message);
+      CHECK(message.find(model + ": " + folder.name(picture) + ": ") == 0);
+    }
 }
 
 TEST_CASE("a model whose pictures do not fit into memory is refused by name") {

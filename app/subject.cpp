@@ -18,6 +18,7 @@
 #include "lighting/bake.h"
 #include "lighting/environment_light.h"
 #include "lighting/material_textures.h"
+#include "lighting/shader_code.h"
 #include "lighting/visibility_textures.h"
 #include "scenes/environment.h"
 #include "scenes/model_camera.h"
@@ -54,15 +55,15 @@ bool can_keep(const Scene& scene, const TechniqueInfo& technique, CoefficientSto
   return can_keep(scene, storage) && !(stores_visibility(technique) && scene.procedural_coefficients);
 }
 
-// All "coefficients_X" and "volume_X" in a user's shader: what it wants baked.
-std::vector<LitTechnique> coefficients_read(const std::string& text, const Scene& scene, LightSource light) {
+// All "coefficients_X" and "volume_X" in the code of a user's shader: what it wants baked.
+std::vector<LitTechnique> coefficients_read(const std::string& code, const Scene& scene, LightSource light) {
   const bool per_vertex = light == LightSource::vertex || !can_keep(scene, CoefficientStorage::lightmap);
   std::vector<LitTechnique> read;
   for (const TechniqueInfo& technique : techniques()) {
     const std::string name(technique.name);
-    if (contains_word(text, "coefficients_" + name))
+    if (contains_word(code, "coefficients_" + name))
       read.push_back({&technique, per_vertex ? CoefficientStorage::vertex : CoefficientStorage::lightmap});
-    if (contains_word(text, "volume_" + name)) read.push_back({&technique, CoefficientStorage::volume});
+    if (contains_word(code, "volume_" + name)) read.push_back({&technique, CoefficientStorage::volume});
   }
   return read;
 }
@@ -383,7 +384,7 @@ Subject light_subject(const LitScene& lit, const SubjectOptions& options, const 
     baked = subject.drawn;
   } else {
     const ShaderSource source = load_fragment_shader(shading.shader, shading.source);
-    baked = coefficients_read(source.text, lit.scene, shading.light);
+    baked = coefficients_read(code_of(source.text), lit.scene, shading.light);
     require_initial_values(source, baked);
   }
   require_lightmap_memory(options, baked);

@@ -11,6 +11,7 @@
 #include "lighting/material_textures.h"
 #include "lighting/projection.h"
 #include "lighting/radiance_basis.h"
+#include "lighting/shader_code.h"
 
 namespace twinshade {
 namespace {
@@ -21,14 +22,14 @@ std::string coefficients_name(const TechniqueInfo& basis, CoefficientStorage sto
 
 // The bases whose coefficients the techniques' shaders read from a storage.
 std::vector<const TechniqueInfo*> bases_in_use(const std::vector<LitTechnique>& wanted, CoefficientStorage storage) {
-  std::vector<std::string> texts;
+  std::vector<std::string> codes;
   for (const LitTechnique& lit : wanted)
-    if (lit.storage == storage) texts.push_back(technique_source(*lit.technique, storage).text);
+    if (lit.storage == storage) codes.push_back(code_of(technique_source(*lit.technique, storage).text));
   std::vector<const TechniqueInfo*> bases;
   for (const TechniqueInfo& basis : techniques()) {
     const std::string name = coefficients_name(basis, storage);
     if (basis.is_basis &&
-        std::any_of(texts.begin(), texts.end(), [&](const std::string& text) { return contains_word(text, name); }))
+        std::any_of(codes.begin(), codes.end(), [&](const std::string& code) { return contains_word(code, name); }))
       bases.push_back(&basis);
   }
   return bases;

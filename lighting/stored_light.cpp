@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/words.h"
-#include "cpu_shaders/source/directive_scan.h"
+#include "lighting/shader_code.h"
 
 namespace twinshade {
 namespace {
@@ -23,14 +23,6 @@ void copy_uniforms(StoredLight& light, const Bundle& bundle, std::initializer_li
 void add_columns(StoredLight& light, std::size_t cells, std::size_t columns) {
   light.numbers += cells * columns;
   light.columns += columns;
-}
-
-// Comments name coefficients as examples, and #line files that are called after them.
-std::string code_of(const std::string& text) {
-  std::string code;
-  for (const SourceLine& line : scan_lines(text))
-    if (line.directive != "line") code += line.code + "\n";
-  return code;
 }
 
 // RGB of every basis whose coefficients the shader names.

@@ -99,6 +99,17 @@ TEST_CASE("a user's shader that names a volume gets it") {
   CHECK(run.json()["provenance"]["bundle_notes"]["coefficients"] == "volume");
 }
 
+TEST_CASE("coefficients that a user's shader names in a comment alone are not baked") {
+  const Folder folder;
+  const std::string code = "in vec2 v_uv; out vec4 color;\nvoid main() { color = vec4(v_uv, 0.0, 1.0); }\n";
+  const auto bundle_of = [&](const std::string& text) {
+    const Run run = run_twinshade(lit_quad({"render"}, {"--shader", folder.file("my.frag", text), "--json", "-"}));
+    REQUIRE_MESSAGE(run.code == 0, run.err);
+    return run.json()["bundle"];
+  };
+  CHECK(bundle_of("// not coefficients_h4\n/* nor\nvolume_sh3 */\n" + code) == bundle_of(code));
+}
+
 TEST_CASE("light that there is not is refused by name") {
   for (const std::vector<std::string>& wrong :
        std::vector<std::vector<std::string>>{{"--technique", "h4", "--light", "volume"},

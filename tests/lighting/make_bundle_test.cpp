@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <set>
 #include <string>
 
 #include "base/error.h"
@@ -137,6 +138,32 @@ TEST_CASE("vertex storage: an attribute for each coefficient") {
       CHECK(std::abs(attribute->values[v * 3 + 1] - (i == 0 ? (v + 1) * 2 * 3.14159265358979 : 0)) < 1e-5);
   }
   CHECK(bundle.find_attribute("v_lightmap_uv") == nullptr);
+}
+
+TEST_CASE("coefficients that shaders name in comments and names of files alone are not stored") {
+  Scene scene = floor_scene();
+  const auto coefficients = [](const Bundle& bundle) {
+    std::set<std::string> names;
+    for (const Texture& texture : bundle.textures) names.insert(texture.name);
+    for (const Attribute& attribute : bundle.attributes)
+      names.insert(attribute.name.substr(0, attribute.name.find('[')));
+    std::erase_if(names, [](const std::string& name) {
+      return !name.starts_with("coefficients_") && !name.starts_with("volume_");
+    });
+    return names;
+  };
+  using Names = std::set<std::string>;
+  const LightBake maps = flat_light(CoefficientStorage::lightmap, 4, 4),
+                  vertices = flat_light(CoefficientStorage::vertex, 4, 1);
+  for (const std::string technique : {"lightmap", "sh2", "hl2", "h6"}) {
+    CAPTURE(technique);
+    const Names one{"coefficients_" + technique};
+    CHECK(coefficients(make_bundle(scene, maps, named({technique.c_str()}), FrameOptions())) == one);
+    CHECK(coefficients(make_bundle(scene, vertices, named({technique.c_str()}), FrameOptions())) == one);
+  }
+  LightBake volume = flat_light(CoefficientStorage::volume, 4, 4);
+  volume.volume = {2, 4, 2};
+  CHECK(coefficients(make_bundle(scene, volume, named({"sh2"}), FrameOptions())) == Names{"volume_sh2"});
 }
 
 TEST_CASE("pictures of other sizes than their array's are said, the budget where it makes them smaller") {

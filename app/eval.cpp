@@ -22,6 +22,7 @@
 #include "base/names.h"
 #include "cpu_shaders/machine.h"
 #include "cpu_shaders/source/line_names.h"
+#include "golden/content_hashes.h"
 
 namespace twinshade {
 namespace {
@@ -115,7 +116,7 @@ struct EvalVerb {
       guarded(cases[i], many, output, [&] {
         if (!paths[i].missing.empty()) throw UserError(paths[i].missing);
         sources[i] = load_fragment_shader(paths[i].shader, source);
-        cases[i].hash = source_hash(sources[i]);
+        cases[i].hash = content_hash(sources[i]);
         cases[i].cases = parse_cases(read_file(paths[i].cases, kMostCasesBytes), paths[i].cases);
       });
     }

@@ -24,7 +24,7 @@ struct EvaluatedCase {
   std::string name;  // of the shader's file, without folder and ending
   std::string file;  // the shader's
   std::string cases_file;
-  std::string hash;   // source_hash of the shader; empty where it cannot be read
+  std::string hash;   // content_hash of the shader; empty where it cannot be read
   std::string error;  // what is wrong with the shader or its cases, one of them missing included; empty: nothing
   Cases cases;
   std::vector<EvaluatedBackend> backends;

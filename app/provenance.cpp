@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "base/parallel.h"
+#include "golden/content_hashes.h"
 
 namespace twinshade {
 namespace {
@@ -41,7 +42,7 @@ void Provenance::add(const Subject& subject) {
   json_["size"] = {subject.bundle.width, subject.bundle.height};
 }
 
-void Provenance::add(const Shading& shading) { add_shader(shading.label(), source_hash(shading.source)); }
+void Provenance::add(const Shading& shading) { add_shader(shading.label(), content_hash(shading.source)); }
 
 void Provenance::add_shader(const std::string& name, const std::string& hash) { json_["shaders"][name] = hash; }
 

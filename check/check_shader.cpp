@@ -13,6 +13,7 @@
 #include "cpu_shaders/rewrite/frag_coord.h"
 #include "cpu_shaders/rewrite/make_exact.h"
 #include "cpu_shaders/source/line_names.h"
+#include "golden/content_hashes.h"
 #include "raster/row_grid.h"
 
 namespace twinshade {
@@ -89,7 +90,7 @@ class Check {
       result_.findings = lint(source_);
     }
     for (LintFinding& finding : result_.findings) finding.file = with_real_names(result_.files, finding.file);
-    result_.hash = source_hash(source_);
+    result_.hash = content_hash(source_);
   }
 
   void generate() {

@@ -57,7 +57,7 @@ struct CheckedShader {
   Verdict verdict = Verdict::refused;
   std::string message;             // refused, not_run: why; differs: where no input shows it when run alone
   std::vector<std::string> files;  // that it is made of
-  std::string hash;                // of the source that is run; empty: it could not be read
+  std::string hash;                // content_hash of the source that is run; empty: it could not be read
   std::vector<LintFinding>
       findings;  // where it leaves the exact dialect; with make_exact: what could not be made exact
   std::vector<BackendCheck> backends;

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "base/file.h"
 #include "run_twinshade.h"
@@ -130,6 +131,23 @@ TEST_CASE("a reader that has enough ends the program without a word") {
   std::string err;
   CHECK(run_in_shell(folder, "translate h4 | head -n 1 >/dev/null", err) == 0);
   CHECK(err.empty());
+}
+
+TEST_CASE("the hash of a shader is that of its text, wherever its files lie") {
+  const Folder here, there;
+  std::set<std::string> hashes;
+  for (const Folder* folder : {&here, &there}) {
+    folder->file("part.glsl", "float part(float x) { return x + 1.0; }\n");
+    const std::string adding =
+        folder->file("add.frag", "#include \"part.glsl\"\nin float x;\nout float y;\nvoid main() { y = part(x); }\n");
+    const std::string cases = folder->file("add.json", kCases);
+    std::vector<std::vector<std::string>> runs{{"eval", adding, "--cases", cases, "--on", "cpu", "--json", "-"},
+                                               {"translate", adding, "--json", "-", "-o", *folder / "add.cpp"}};
+    if (why_missing("egl").empty()) runs.push_back({"check", adding, "--no-timing", "--on", "cpu,egl", "--json", "-"});
+    for (const std::vector<std::string>& arguments : runs)
+      hashes.insert(run_twinshade(arguments).json()["provenance"]["shaders"].begin()->get<std::string>());
+  }
+  CHECK(hashes.size() == 1);
 }
 
 TEST_CASE("results are in files even where nobody reads the table, or it cannot be written") {

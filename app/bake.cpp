@@ -22,10 +22,10 @@ struct BakeVerb {
 
   int run() const {
     apply(common);
-    const Output output(common);
-    if (file == "-")
-      throw UserError("-o -: a bundle does not go to stdout, where its hash is told: name a file or a pipe");
+    Output output(common);
+    if (file == "-") throw UserError("-o -: names no file; for stdout: -o /dev/stdout");
     require_writable_file(file);
+    output.leave_stdout_to(file);
     output.require_not_read(files_read(subject, shading), file);
     const Subject ready = load_subject(subject, shading, common, output, file);
     write_bundle(file, ready.bundle);

@@ -1,6 +1,7 @@
 #include "app/output.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -32,38 +33,46 @@ bool same_file(const std::string& a, const std::string& b) {
   return !code && x == fs::weakly_canonical(fs::absolute(b, code), code);
 }
 
+// Also of a file that the shell sends stdout to.
+bool leads_to_stdout(const std::string& path) {
+  struct stat named, standard;
+  return ::stat(path.c_str(), &named) == 0 && ::fstat(STDOUT_FILENO, &standard) == 0 && !S_ISCHR(named.st_mode) &&
+         named.st_dev == standard.st_dev && named.st_ino == standard.st_ino;
+}
+
 }  // namespace
 
 Output::Output(const CommonOptions& options, const ReportOptions& reports, const std::string& folder)
-    : options_(options), reports_(reports), folder_(folder) {
-  const std::array<std::pair<const char*, std::string>, 3> documents{
-      {{"--json", options.json}, {"--junit", reports.junit}, {"--html", reports.html}}};
-  for (auto one = documents.begin(); one != documents.end(); ++one)
-    for (auto other = documents.begin(); other != one; ++other) {
-      if (one->second.empty() || other->second.empty()) continue;
-      if (one->second == "-" && other->second == "-")
+    : options_(options),
+      documents_{{{"--json", options.json}, {"--junit", reports.junit}, {"--html", reports.html}}},
+      folder_(folder) {
+  for (auto one = documents_.begin(); one != documents_.end(); ++one)
+    for (auto other = documents_.begin(); other != one; ++other) {
+      if (one->file.empty() || other->file.empty()) continue;
+      if (one->file == "-" && other->file == "-")
         throw UserError(
-            fmt::format("{} - and {} -: both go to stdout; name a file for one of them", other->first, one->first));
-      if (one->second != "-" && other->second != "-" && same_file(one->second, other->second))
-        throw UserError(fmt::format("{} and {} both write {}: name another file for one of them", other->first,
-                                    one->first, one->second));
+            fmt::format("{} - and {} -: both go to stdout; name a file for one of them", other->option, one->option));
+      if (one->file != "-" && other->file != "-" && same_file(one->file, other->file))
+        throw UserError(fmt::format("{} and {} both write {}: name another file for one of them", other->option,
+                                    one->option, one->file));
     }
   std::error_code code;
-  for (const auto& [option, file] : documents)
-    if (!file.empty() && file != "-" && (fs::exists(folder, code) || !is_in_folder(file))) require_writable_file(file);
+  for (const Document& document : documents_)
+    if (!document.file.empty() && document.file != "-" && (fs::exists(folder, code) || !is_in_folder(document.file)))
+      require_writable_file(document.file);
   shows_progress_ = !options.quiet && ::isatty(STDERR_FILENO);
 }
 
 std::vector<std::pair<std::string, std::string>> Output::files() const {
   std::vector<std::pair<std::string, std::string>> files;
-  for (const auto& [option, file] : {std::pair("--json ", options_.json), std::pair("--junit ", reports_.junit),
-                                     std::pair("--html ", reports_.html)})
-    if (!file.empty() && file != "-") files.emplace_back(option + file, file);
+  for (const Document& document : documents_)
+    if (!document.file.empty() && document.file != "-")
+      files.emplace_back(std::string(document.option) + " " + document.file, document.file);
   return files;
 }
 
 bool Output::document_on_stdout() const {
-  return options_.json == "-" || reports_.junit == "-" || reports_.html == "-";
+  return std::any_of(documents_.begin(), documents_.end(), [](const Document& one) { return one.file == "-"; });
 }
 
 ResultsInFiles Output::results_in_files() const {
@@ -129,6 +138,14 @@ void Output::require_not_read(const std::vector<std::string>& read, const std::s
       throw UserError("-o " + folder_ + ": it would replace " + input + ", which is read: name another folder");
 }
 
+void Output::leave_stdout_to(const std::string& file) {
+  stdout_left_ = leads_to_stdout(file);
+  for (const Document& document : documents_)
+    if (stdout_left_ && document.file == "-")
+      throw UserError(
+          fmt::format("{} -: -o {} goes to stdout, too; name a file for one of them", document.option, file));
+}
+
 void Output::require_not_taken(const std::string& folder, const std::string& ending) const {
   for (const auto& [option, file] : files()) {
     std::error_code code;
@@ -140,7 +157,7 @@ void Output::require_not_taken(const std::string& folder, const std::string& end
 
 void Output::text(const std::string& text) const {
   clear_progress();
-  if (document_on_stdout())
+  if (document_on_stdout() || stdout_left_)
     std::fputs(text.c_str(), stderr);
   else
     write_to_stdout(text, results_in_files());
@@ -173,9 +190,9 @@ void Output::json_so_far(const Json& so_far) const {
   if (!options_.json.empty() && options_.json != "-" && is_replaced_by_writing(options_.json)) json(so_far);
 }
 
-void Output::junit(const std::string& xml) const { write_to(reports_.junit, xml); }
+void Output::junit(const std::string& xml) const { write_to(documents_[kJUnit].file, xml); }
 
-void Output::html(const std::string& page) const { write_to(reports_.html, page); }
+void Output::html(const std::string& page) const { write_to(documents_[kHtml].file, page); }
 
 std::vector<std::string> files_of_shader(const std::string& shader, const SourceOptions& options) {
   std::vector<std::string> files{shader};

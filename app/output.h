@@ -1,6 +1,7 @@
 // Where results, notes and JSON go.
 #pragma once
 
+#include <array>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -15,9 +16,9 @@ namespace twinshade {
 
 using Json = nlohmann::ordered_json;
 
-// Results are read on stdout. When a document takes stdout (--json -, --junit -, --html -), text for people moves to
-// stderr, so that what a program reads is that alone. UserError where stdout cannot be written; files are
-// written all the same.
+// Results are read on stdout. When a document takes stdout (--json -, --junit -, --html -), or a file (-o
+// /dev/stdout), text for people moves to stderr, so that what a program reads is that alone. UserError where stdout
+// cannot be written; files are written all the same.
 class Output {
  public:
   // Refuses files that cannot be written, and one file for two results, before any work is done. reports: what
@@ -32,6 +33,9 @@ class Output {
   // Refuses to write over a file that the verb reads. `written`: what else it writes, beside --json, reports and
   // what is claimed.
   void require_not_read(const std::vector<std::string>& read, const std::string& written = {}) const;
+  // Tells that -o writes `file`. Where that leads to stdout, text for people moves to stderr; --json -, --junit - and
+  // --html - are refused then.
+  void leave_stdout_to(const std::string& file);
   // Refuses a file in `folder` with this ending: the next run would read it.
   void require_not_taken(const std::string& folder, const std::string& ending) const;
   void text(const std::string& text) const;  // a result, as is
@@ -42,10 +46,16 @@ class Output {
   // The same of what there is so far, before more of it: to files alone, which the next one replaces.
   void json_so_far(const Json& json) const;
   void junit(const std::string& xml) const;  // to where --junit says; nothing without it
-  bool wants_html() const { return !reports_.html.empty(); }
+  bool wants_html() const { return !documents_[kHtml].file.empty(); }
   void html(const std::string& page) const;  // to where --html says; nothing without it
 
  private:
+  struct Document {
+    const char* option;
+    std::string file;  // "-": stdout; empty: not asked for
+  };
+  static constexpr std::size_t kJUnit = 1, kHtml = 2;  // of documents_
+
   void clear_progress() const;
   bool claims(const std::string& file) const;  // whether -o writes it
   bool is_in_folder(const std::string& file) const;
@@ -57,10 +67,11 @@ class Output {
   ResultsInFiles results_in_files() const;
 
   const CommonOptions& options_;
-  const ReportOptions reports_;
+  const std::array<Document, 3> documents_;
   const std::string folder_;        // -o; empty: none
   std::set<std::string> claimed_;   // names of files in it
   std::vector<std::string> links_;  // those that are links: what one leads to is replaced
+  bool stdout_left_ = false;        // to what -o writes
   mutable std::set<std::string> noted_;
   bool shows_progress_ = false;
   mutable bool progress_shown_ = false;

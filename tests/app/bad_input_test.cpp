@@ -354,7 +354,7 @@ TEST_CASE("an empty name of what to write is refused by its option") {
       check_refused({verb, "quad", option, ""}, {"-o '': the name is empty; name the f"});
   check_refused({"translate", "h4", "-o", ""}, {"-o '': the name is empty; name the file to write"});
   check_refused({"experiment", "frobenius", "-o", ""}, {"-o '': the name is empty; name the folder to write"});
-  check_refused({"bake", "quad", "-o", "-"}, {"-o -: ", "name a file"});
+  check_refused({"bake", "quad", "-o", "-"}, {"-o -: ", "/dev/stdout"});
   check_refused({"list", "--json", ""}, {"--json '': the name is empty; name the file to write"});
   check_refused({"check", "a.frag", "--junit", ""}, {"--junit '': the name is empty"});
   check_refused({"check", "a.frag", "--html", ""}, {"--html '': the name is empty"});

@@ -213,6 +213,28 @@ TEST_CASE("results go to pipes, links and stdout, which stay what they are") {
   CHECK(both.out == read_file(folder / "table") + read_file(out));
 }
 
+TEST_CASE("a bundle that goes to stdout is alone there") {
+  const Folder folder;
+  const std::string bundle = folder / "quad.bundle", piped = folder / "piped";
+  REQUIRE(run_twinshade(small_quad({"bake"}, {"--technique", "lightmap", "-o", bundle})).code == 0);
+  const std::vector<std::string> to_stdout = small_quad({"bake"}, {"--technique", "lightmap", "-o", "/dev/stdout"});
+  const Run run = run_twinshade(to_stdout);
+  REQUIRE_MESSAGE(run.code == 0, run.err);
+  CHECK(run.out == read_file(bundle));
+  CHECK(run.err.find("\nbundle ") != std::string::npos);
+  std::string line, err;
+  for (const std::string& argument : to_stdout) line += argument + " ";
+  CHECK(run_in_shell(folder, line + "| cat >'" + piped + "'", err) == 0);
+  CHECK(read_file(piped) == read_file(bundle));
+
+  std::vector<std::string> both = to_stdout;
+  both.insert(both.end(), {"--json", "-"});
+  const Run refused = run_twinshade(both);
+  CHECK(refused.code == 2);
+  CHECK(refused.out.empty());
+  CHECK(refused.err == "twinshade: --json -: -o /dev/stdout goes to stdout, too; name a file for one of them\n");
+}
+
 TEST_CASE("a bundle is read from a pipe") {
   const Folder folder;
   const std::string bundle = folder / "quad.bundle", pipe = folder / "pipe", out = folder / "out";

@@ -78,6 +78,7 @@ struct RenderVerb {
       PictureOptions noted = picture;
       noted.notes = {
           {"technique", shader.technique}, {"backend", backend}, {"frame_hash", hash}, {"bundle_hash", ready.hash}};
+      if (frame.color_scalar != Scalar::f32) require_integers_shown(output);
       write_picture(file, frame, noted);
     }
 
@@ -104,6 +105,17 @@ struct RenderVerb {
   }
 
  private:
+  // A PNG shows integers as they are: no exposure, no tone curve.
+  void require_integers_shown(const Output& output) const {
+    for (const char* option : {"--exposure", "--tonemap"})
+      if (command->get_option(option)->count() > 0)
+        throw UserError(std::string(option) +
+                        ": the shader's output is of integers, which a PNG shows as they are: "
+                        "leave it out");
+    if (lower_case_ending(file) == ".png")
+      output.note(file + ": integers below 0 are 0, above 255 they are 255; an .exr keeps them");
+  }
+
   void require_traceable() const {
     if (backend != "cpu") throw UserError("technique reference has no shader: the cpu alone draws it");
     for (const char* option : kNotOfReference)

@@ -69,6 +69,27 @@ unsigned char toned_value(double exposed, Tonemap tonemap) {
   return encoded(std::min(tone_curve(std::min(exposed, 1e100), tonemap), 1.0));
 }
 
+// An integer as it is, as far as a byte holds it. value: its bits.
+unsigned char byte_of(Scalar scalar, float value) {
+  const auto bits = std::bit_cast<std::uint32_t>(value);
+  if (scalar == Scalar::i32 && std::bit_cast<std::int32_t>(bits) < 0) return 0;
+  return static_cast<unsigned char>(std::min(bits, 255u));
+}
+
+// Integers are no radiance: words of their own type, as tools read them.
+void write_integers(const std::string& path, const Frame& frame, const PictureOptions& options) {
+  ChannelImage image;
+  image.width = frame.width, image.height = frame.height;
+  for (const char* channel : {"R", "G", "B", "A"}) image.channels.push_back({channel, false});
+  image.words.reserve(frame.color.size());
+  const std::size_t row = std::size_t(frame.width) * 4;
+  for (std::size_t y = frame.height; y-- > 0;)
+    for (std::size_t i = y * row; i < (y + 1) * row; ++i)
+      image.words.push_back(std::bit_cast<std::uint32_t>(frame.color[i]));
+  image.notes = options.notes;
+  write_channel_file(path, image);
+}
+
 // A y-down picture whose rows are those of a y-up buffer, last row first.
 template <class Rows>
 ImageToWrite image_of(const Frame& frame, int channels, const Rows& y_up, const PictureOptions& options) {
@@ -118,6 +139,11 @@ Rgb difference_color(const Frame& a, const Frame& b, std::size_t pixel) {
     for (std::size_t c = 0; c < a.attribute_names.size(); ++c)
       if (!same_value(a.attribute_scalars[c], a.attributes[c * pixels + pixel], b.attributes[c * pixels + pixel]))
         return {0, 220, 220};
+  if (a.color_scalar != Scalar::f32) {
+    Rgb dim;
+    for (int c = 0; c < 3; ++c) dim[c] = byte_of(a.color_scalar, color_a[c]) / 3;
+    return dim;
+  }
   const double luminance = 0.2126 * color_a[0] + 0.7152 * color_a[1] + 0.0722 * color_a[2];
   const auto grey = static_cast<unsigned char>(display_value(luminance, 0, Tonemap::reinhard) / 3);
   return {grey, grey, grey};
@@ -130,7 +156,9 @@ std::vector<unsigned char> displayed(const Frame& frame, const PictureOptions& o
   parallel_for(frame.height, [&](std::size_t y, int) {
     for (std::size_t i = y * frame.width; i < (y + 1) * frame.width; ++i)
       for (std::size_t c = 0; c < 3; ++c)
-        rgb[i * 3 + c] = toned_value(double(frame.color[i * 4 + c]) * scale, options.tonemap);
+        rgb[i * 3 + c] = frame.color_scalar != Scalar::f32
+                             ? byte_of(frame.color_scalar, frame.color[i * 4 + c])
+                             : toned_value(double(frame.color[i * 4 + c]) * scale, options.tonemap);
   });
   return rgb;
 }
@@ -165,9 +193,16 @@ void write_picture(const std::string& path, const Frame& frame, const PictureOpt
   TWINSHADE_CHECK_EQ(frame.color.size(), std::size_t(frame.width) * frame.height * 4);
   const std::string ending = lower_case_ending(path);
   const std::size_t pixels = std::size_t(frame.width) * frame.height;
-  if (ending == ".exr") {
+  const bool integers = frame.color_scalar != Scalar::f32;
+  if (ending == ".exr" && integers) {
+    write_integers(path, frame, options);
+  } else if (ending == ".exr") {
     write_image_file(path, image_of(frame, 4, frame.color, options));
   } else if (ending == ".hdr") {
+    if (integers)
+      throw UserError(path +
+                      ": the shader's output is of integers, which are no radiance; name an .exr, which keeps "
+                      "them, or a .png, which shows 0 to 255");
     std::vector<float> rgb(pixels * 3);
     for (std::size_t i = 0; i < pixels; ++i)
       for (std::size_t c = 0; c < 3; ++c) {

@@ -27,12 +27,13 @@ struct PictureOptions {
 void require_picture_ending(const std::string& path);
 
 // By ending: .exr RGBA 32-bit float, lossless; .hdr RGBE, negative and NaN become 0; .png 8-bit sRGB. Frames are y-up,
-// pictures y-down. UserError naming the path where it cannot be written; nothing half-written stays behind.
+// pictures y-down. Integers: .exr RGBA 32-bit unsigned integers, signed ones by their bits; .png themselves, clamped to
+// [0, 255]; .hdr refused. UserError naming the path where it cannot be written; nothing half-written stays behind.
 void write_picture(const std::string& path, const Frame& frame, const PictureOptions& options = {});
 
-// Where b differs from a, as PNG. Equal pixels: a in dim grey. Different colour: blue (1 ULP) over green and yellow to
-// red (2^16 ULP or more), white where one side is NaN. Depth or attributes only: cyan. Primitive id: orange. Coverage:
-// magenta.
+// Where b differs from a, as PNG. Equal pixels: a in dim grey, integers in dim colours. Different colour: blue (1 ULP)
+// over green and yellow to red (2^16 ULP or more), white where one side is NaN. Depth or attributes only: cyan.
+// Primitive id: orange. Coverage: magenta.
 void write_difference_picture(const std::string& path, const Frame& a, const Frame& b);
 
 // The bytes of the same as PNG files.

@@ -103,6 +103,27 @@ TEST_CASE("render writes every kind of picture, and nothing else") {
   CHECK(folder.names() == std::vector<std::string>{"a.exr", "a.hdr", "a.png"});
 }
 
+TEST_CASE("a picture of integers says what it cannot hold, and refuses what means nothing for them") {
+  const Folder folder;
+  const std::string shader = folder.file("ids.frag", "out uvec4 id;\nvoid main() { id = uvec4(200u, 0u, 7u, 1u); }\n");
+  const auto drawn_to = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> after{"--shader", shader, "-o", folder / name};
+    after.insert(after.end(), more.begin(), more.end());
+    return run_twinshade(small_quad({"render"}, after));
+  };
+  const Run png = drawn_to("a.png", {}), exr = drawn_to("a.exr", {});
+  CHECK(png.code == 0);
+  CHECK(png.err.find("a.png: integers below 0 are 0, above 255 they are 255") != std::string::npos);
+  CHECK(exr.code == 0);
+  CHECK(exr.err.empty());
+  const Run exposed = drawn_to("b.png", {"--exposure", "1"}), radiance = drawn_to("b.hdr", {});
+  for (const Run& refused : {exposed, radiance}) {
+    CHECK(refused.code == 2);
+    CHECK_MESSAGE(refused.err.find("integers") != std::string::npos, refused.err);
+  }
+  CHECK(folder.names() == std::vector<std::string>{"a.exr", "a.png", "ids.frag"});
+}
+
 TEST_CASE("translate writes C++ that names its GLSL") {
   const Folder folder;
   const Run run = run_twinshade({"translate", "h4", "-o", folder / "h4.cpp"});

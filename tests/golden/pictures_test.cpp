@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "images/image_file.h"
 
 namespace twinshade {
 namespace {
@@ -122,6 +123,36 @@ TEST_CASE("PNG is sRGB") {
       CHECK(now >= last);
       last = now;
     }
+  }
+}
+
+TEST_CASE("integers are themselves: in PNG from 0 to 255, in EXR all, in HDR none") {
+  const Folder folder;
+  for (const Scalar scalar : {Scalar::u32, Scalar::i32}) {
+    Frame frame = frame_of(2, 2);
+    frame.color_scalar = scalar;
+    const std::uint32_t words[16] = {0,   1,           254, 7, 255,         256, 0xffffffffu, 8,
+                                     100, 0x80000000u, 3,   9, 0x7f800001u, 2,   5,           6};
+    for (std::size_t i = 0; i < 16; ++i) frame.color[i] = std::bit_cast<float>(words[i]);
+    write_picture(folder.file("a.png"), frame);
+    const Image png = read(folder.file("a.png"));
+    write_picture(folder.file("a.exr"), frame);
+    const ChannelImage exr = read_channel_file(folder.file("a.exr"));
+    REQUIRE(exr.channels.size() == 4);
+    for (std::size_t y = 0; y < 2; ++y)
+      for (std::size_t x = 0; x < 2; ++x)
+        for (std::size_t c = 0; c < 4; ++c) {
+          const std::uint32_t word = words[(y * 2 + x) * 4 + c];
+          const std::size_t pixel = (1 - y) * 2 + x, place = exr.find(std::string_view(&"RGBA"[c], 1));
+          REQUIRE(place < 4);
+          CHECK_FALSE(exr.channels[place].is_float);
+          CHECK(exr.words[pixel * 4 + place] == word);
+          const bool negative = scalar == Scalar::i32 && word > 0x7fffffffu;
+          if (c < 3) CHECK(png.values[pixel * 3 + c] * 255 == doctest::Approx(negative ? 0 : std::min(word, 255u)));
+        }
+    CHECK_THROWS_WITH_AS(write_picture(folder.file("a.hdr"), frame), doctest::Contains("name an .exr"), UserError);
+    write_difference_picture(folder.file("d.png"), frame, frame);
+    CHECK(read(folder.file("d.png")).values[0] * 255 == doctest::Approx(100 / 3));
   }
 }
 

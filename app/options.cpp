@@ -177,6 +177,7 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
              [&](const std::string& text) { options.threads = parse_between("--threads", text, 1, kMostThreads); });
   add_parsed(command, "--seed", "N", "seed of everything random (default: 1)", [&](const std::string& text) {
     options.seed = parse_between<std::uint64_t>("--seed", text, 0, UINT64_MAX);
+    options.seed_given = true;
   });
   command.add_flag("--quiet", options.quiet, "no progress and no notes");
 }

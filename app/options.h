@@ -48,6 +48,7 @@ struct CommonOptions {
   std::string json;  // file, "-" for stdout, empty: none
   int threads = 0;   // 0: one per processor
   std::uint64_t seed = 1;
+  bool seed_given = false;  // by --seed: a bundle file admits none
   bool quiet = false;
 };
 

@@ -155,16 +155,17 @@ void choose(Subject& subject, const std::vector<const TechniqueInfo*>& chosen, c
   }
 }
 
-Bundle bundle_from_file(const SubjectOptions& options) {
-  if (!options.given.empty())
-    throw UserError(
-        fmt::format("{}: {} cannot change a bundle; bake it again with it", options.scene, options.given.front()));
+Bundle bundle_from_file(const SubjectOptions& options, const CommonOptions& common) {
+  std::vector<std::string> given = options.given;
+  if (common.seed_given) given.emplace_back("--seed");
+  if (!given.empty())
+    throw UserError(fmt::format("{}: {} cannot change a bundle; bake it again with it", options.scene, given.front()));
   return read_bundle(options.scene);
 }
 
-Subject subject_from_file(const SubjectOptions& options, const ShadingOptions& shading) {
+Subject subject_from_file(const SubjectOptions& options, const ShadingOptions& shading, const CommonOptions& common) {
   Subject subject;
-  subject.bundle = bundle_from_file(options);
+  subject.bundle = bundle_from_file(options, common);
   if (!shading.shader.empty()) return subject;
   choose(
       subject, chosen_techniques(shading), shading,
@@ -417,7 +418,7 @@ Subject load_subject(const SubjectOptions& options, const ShadingOptions& shadin
   LastLitScene own;
   Subject subject =
       is_bundle_file(options.scene)
-          ? subject_from_file(options, shading)
+          ? subject_from_file(options, shading, common)
           : light_subject(lit_scene_of(options, output, written, last ? *last : own), options, shading, common, output);
   if (wants_all(shading)) subject.skipped.emplace_back(kReferenceTechnique, kReferenceReason);
   subject.hash = bundle_hash(subject.bundle);

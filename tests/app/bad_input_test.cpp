@@ -268,6 +268,7 @@ TEST_CASE("options that would change a bundle are refused, not ignored") {
   check_refused({"render", bundle, "--technique", "lightmap", "--size", "10x10"}, {"--size", "bake"});
   check_refused({"render", bundle, "--technique", "lightmap", "--env", "sky"}, {"--env", "bake"});
   check_refused({"render", bundle, "--technique", "lightmap", "--clamp-radiance"}, {"--clamp-radiance", "bake"});
+  check_refused({"render", bundle, "--technique", "lightmap", "--seed", "2"}, {"--seed", "bake"});
   check_refused({"render", bundle, "--technique", "reference"}, {"b.bundle: technique reference", "name a built-in"});
 }
 

@@ -155,6 +155,19 @@ void require_plain(const OIIO::ImageSpec& spec) {
     refuse("its data window is not its display window; crop or fill it first");
 }
 
+// What an OpenEXR file of several parts, as of two eyes, has beside the first. Empty where there is nothing.
+std::string unread_parts(OIIO::ImageInput& input) {
+  if (std::string_view(input.format_name()) != "openexr") return "";
+  Names parts;
+  for (int part = 0; input.seek_subimage(part, 0); ++part) {
+    const std::string name(input.spec().get_string_attribute("oiio:subimagename"));
+    parts.push_back(name.empty() ? "part " + std::to_string(part + 1) : name);
+  }
+  if (parts.size() < 2) return "";
+  return "of its " + std::to_string(parts.size()) + " parts the first alone is read, " + parts.front() + ", not " +
+         listed({parts.begin() + 1, parts.end()});
+}
+
 DecodedImage read_all(OIIO::ImageInput& input, std::uint64_t most) {
   const OIIO::ImageSpec spec = input.spec();
   require_plain(spec);
@@ -195,6 +208,7 @@ DecodedImage read_all(OIIO::ImageInput& input, std::uint64_t most) {
     read(std::uint16_t{}, OIIO::TypeDesc::UINT16, 65535);
   else
     read(float{}, OIIO::TypeDesc::FLOAT, 1);
+  image.note = unread_parts(input);
   return image;
 }
 
@@ -313,7 +327,7 @@ ChannelImage read_channels(const std::string& path, std::uint64_t most) {
 }  // namespace
 }  // namespace twinshade
 
-extern "C" __attribute__((visibility("default"))) const twinshade::ImageCodec twinshade_image_codec_4;
-const twinshade::ImageCodec twinshade_image_codec_4 = {twinshade::read_file,     twinshade::read_memory,
+extern "C" __attribute__((visibility("default"))) const twinshade::ImageCodec twinshade_image_codec_5;
+const twinshade::ImageCodec twinshade_image_codec_5 = {twinshade::read_file,     twinshade::read_memory,
                                                        twinshade::write_file,    twinshade::encode,
                                                        twinshade::read_channels, twinshade::write_channels};

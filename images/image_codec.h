@@ -24,7 +24,7 @@ struct ImageCodec {
 
 // The module's symbol, of type const ImageCodec. Its number goes up where that changes: a module of another build is
 // refused, not called.
-constexpr const char* kImageCodecSymbol = "twinshade_image_codec_4";
+constexpr const char* kImageCodecSymbol = "twinshade_image_codec_5";
 
 // UserError naming where the module was looked for, or what it lacks.
 const ImageCodec& image_codec();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <new>
@@ -138,17 +139,36 @@ std::array<double, 3> numbers_of(const std::string& line) {
   return numbers;
 }
 
+// Whether the pixels of a Radiance picture, from its line of sizes on, have run lengths of the format's older kind,
+// which OpenImageIO does not read: a pixel (1, 1, 1, n) repeats the one before it (Ward, Radiance file formats).
+// Pictures without run lengths may have such pixels as well, but no bytes too few.
+bool has_old_run_lengths(std::string_view bytes) {
+  unsigned height = 0, width = 0;
+  const std::size_t end = bytes.find('\n');
+  if (end == bytes.npos || std::sscanf(std::string(bytes.substr(0, end)).c_str(), "-Y %u +X %u", &height, &width) != 2)
+    return false;
+  bytes.remove_prefix(end + 1);
+  if (bytes.size() / 4 / std::max(width, 1u) >= height || bytes.substr(0, 2) == "\2\2") return false;
+  for (std::size_t at = 4; at + 4 <= bytes.size(); at += 4)
+    if (bytes.substr(at, 3) == "\1\1\1") return true;
+  return false;
+}
+
 // What a Radiance picture's red, green and blue have been multiplied by: the product of its header's EXPOSURE and
-// COLORCORR lines (Ward, Radiance file formats), which OpenImageIO does not divide by. 1 for other files. Only the
-// header, up to an empty line, is read.
+// COLORCORR lines (Ward, Radiance file formats), which OpenImageIO does not divide by. 1 for other files. Refuses those
+// that are not read.
 std::array<double, 3> radiance_exposure(std::string_view bytes, const std::string& name) {
   std::array<double, 3> exposure{1, 1, 1};
   if (bytes.substr(0, 2) != "#?") return exposure;
   while (!bytes.empty()) {
     const std::size_t end = std::min(bytes.find('\n'), bytes.size());
     const std::string line(bytes.substr(0, end));
-    if (line.empty() || line == "\r") break;
     bytes.remove_prefix(std::min(end + 1, bytes.size()));
+    if (line.empty() || line == "\r") {
+      if (has_old_run_lengths(bytes))
+        refuse(name, "its pixels have run lengths of Radiance's old kind, which are not read; convert it with ra_rgbe");
+      break;
+    }
     if (line.rfind("FORMAT=32-bit_rle_xyze", 0) == 0)
       refuse(name, "its colours are CIE XYZ, which is not read; convert it with ra_xyze -r");
     const bool for_all = line.rfind("EXPOSURE=", 0) == 0;

@@ -16,6 +16,7 @@ struct DecodedImage {
   std::uint32_t channels = 0;  // 1 to 4: R, G, B, A or grey, A, by name where the file names them; A may be missing
   std::uint32_t bits = 32;     // of an integer sample in the file (8 or 16); 32: floating point
   std::vector<float> texels;   // row 0 is the upper one; integers divided by their largest value
+  std::string note = {};       // what of the file is not read, to be said with the file's name; empty: nothing
 };
 
 // UserError naming the file: missing, truncated, damaged, of no known format, of no size, larger than memory.

@@ -27,6 +27,7 @@ Environment load_environment_file(const std::string& path, bool clamp_radiance) 
   if (environment.height > 1 && environment.width != 2 * std::uint64_t(environment.height))
     environment.note = path + ": " + std::to_string(image.width) + " x " + std::to_string(image.height) +
                        ", not twice as wide as high; read as lat-long all the same";
+  if (!image.note.empty()) environment.note += (environment.note.empty() ? path + ": " : "; ") + image.note;
   environment.radiance.resize(std::size_t(image.width) * image.height);
   float largest = 0;
   for (float value : image.texels)

@@ -437,6 +437,7 @@ class Reader {
     model_.images.push_back(read_for_model(document_.path(), [&] {
       const DecodedImage decoded =
           source.file.empty() ? decode_image_memory(source.bytes, source.name) : decode_image_file(source.file);
+      if (!decoded.note.empty()) model_.notes.push_back(source.name + ": " + decoded.note);
       return is_normal ? normal_image(decoded, scale) : albedo_image(decoded, source.name);
     }));
     return images_[key] = int(model_.images.size()) - 1;

@@ -222,6 +222,7 @@ class Reader {
     if (const auto known = images_.find(key); known != images_.end()) return known->second;
     model_.files.push_back(path);
     const DecodedImage decoded = read_for_model(path_, [&] { return decode_image_file(path); });
+    if (!decoded.note.empty()) model_.notes.push_back(name + ": " + decoded.note);
     if (use == Use::bumps && !looks_like_normal_map(decoded)) {
       model_.notes.push_back("bump map " + name + " is a height field, not a normal map: ignored");
       return images_[key] = -1;

@@ -239,6 +239,40 @@ TEST_CASE("an .hdr file's values are divided by the product of its exposures and
   }
 }
 
+TEST_CASE("an .hdr file with run lengths of the old kind is refused with the remedy") {
+  TemporaryFolder folder;
+  const std::string flat = flat_rgbe(16, 2, std::vector<std::uint8_t>(16 * 2 * 4, 1));
+  CHECK_NOTHROW(load_environment(folder.write("flat.hdr", flat)));  // (1, 1, 1, 1) is a colour there
+  const std::string header = flat.substr(0, flat.size() - 16 * 2 * 4), run = "\x80\x40\x20\x81\1\1\1\x0f";
+  CHECK(user_error([&] { load_environment(folder.write("old.hdr", header + run + run)); }) ==
+        folder.name("old.hdr") +
+            ": cannot be read as an image: its pixels have run lengths of Radiance's old kind, which "
+            "are not read; convert it with ra_rgbe");
+  const std::string cut = user_error([&] { load_environment(folder.write("cut.hdr", header + run.substr(0, 4))); });
+  CHECK_MESSAGE(cut.find("old kind") == std::string::npos, cut);
+}
+
+TEST_CASE("of an .exr file of several parts the first is read, and the others are named") {
+  TemporaryFolder folder;
+  const std::string path = folder.name("eyes.exr");
+  std::vector<OIIO::ImageSpec> parts(3, OIIO::ImageSpec(4, 2, 3, OIIO::TypeDesc::FLOAT));
+  const char* const names[] = {"left", "right", "depth"};
+  for (std::size_t i = 0; i < 3; ++i) parts[i].attribute("oiio:subimagename", names[i]);
+  const auto out = OIIO::ImageOutput::create(path);
+  REQUIRE(out->open(path, 3, parts.data()));
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (i > 0) REQUIRE(out->open(path, parts[i], OIIO::ImageOutput::AppendSubimage));
+    const std::vector<float> values(4 * 2 * 3, float(i + 1));
+    REQUIRE(out->write_image(OIIO::TypeDesc::FLOAT, values.data()));
+  }
+  REQUIRE(out->close());
+  const Environment left = load_environment(path);
+  CHECK(left.radiance[7] == glm::vec3(1));
+  CHECK(left.note == path + ": of its 3 parts the first alone is read, left, not right, depth");
+  write_image(folder.name("one.exr"), 4, 2, 3, std::vector<float>(24, 1.0f));
+  CHECK(load_environment(folder.name("one.exr")).note.empty());
+}
+
 TEST_CASE("an .exr file is read as it is, row 0 at the zenith") {
   TemporaryFolder folder;
   std::vector<float> values;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
 #include "base/error.h"
 #include "base/memory.h"
@@ -214,11 +215,11 @@ class CasesReader {
     if (!values.contains(kind)) return result;
     const Json& list = values[kind];
     if (!list.is_array()) fail("values." + kind + " must be a list");
+    std::set<std::string> names;
     for (std::size_t i = 0; i < list.size(); ++i) {
       result.push_back(column(list[i], "values." + kind + "[" + std::to_string(i) + "]", kind == "outputs"));
-      for (std::size_t k = 0; k < i; ++k)
-        if (result[k].values.name == result[i].values.name)
-          fail("values." + kind + ": " + result[i].values.name + " is there twice");
+      if (const std::string& name = result.back().values.name; !names.insert(name).second)
+        fail("values." + kind + ": " + name + " is there twice");
     }
     return result;
   }

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <ctime>
 
 #include "base/error.h"
 #include "evaluate/compare_outputs.h"
@@ -145,6 +146,15 @@ TEST_CASE("what is wrong with cases is said in one line") {
         "f.json: values.inputs: a is there twice");
   CHECK(refusal(R"({"values": {}, "tolerance": {"ulp": -1}})") == "f.json: tolerance.ulp must be a number, 0 or more");
   CHECK(refusal(R"({"values": {"inputs": [{"name": 1}]}})") == "f.json: values.inputs[0] needs a \"name\", a string");
+}
+
+TEST_CASE("a table of very many inputs is read in a time that grows as they do") {
+  std::string list;
+  for (int i = 0; i < 60000; ++i)
+    list += (i > 0 ? ", " : "") + (R"({"name": "input_)" + std::to_string(i)) + R"(", "type": "float", "values": [1]})";
+  const std::clock_t before = std::clock();
+  CHECK(parse_cases(R"({"values": {"inputs": [)" + list + "]}}", "f.json").table.inputs.size() == 60000);
+  CHECK(double(std::clock() - before) / CLOCKS_PER_SEC < 10);
 }
 
 TEST_CASE("rows of null whose type needs more memory than there is are refused before they take it") {

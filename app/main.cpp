@@ -35,6 +35,20 @@ void require_verb(int argc, char** argv, const std::vector<Verb>& verbs) {
     throw UserError(unknown_name_message("verb", argv[1], names));
 }
 
+// CLI11's own words for an option that is given twice, or without its value, take some thought.
+std::string usage_words(const CLI::ParseError& error) {
+  const std::string text = one_line(error.what());
+  constexpr std::string_view kOnce = ": At Most 1 required but received ", kOne = ": 1 required ",
+                             kMissing = " missing";
+  if (const std::size_t at = text.find(kOnce); at != std::string::npos)
+    return text.substr(0, at) + " is given " + text.substr(at + kOnce.size()) + " times: give it once";
+  if (const std::size_t at = text.find(kOne); at != std::string::npos && text.ends_with(kMissing)) {
+    const std::size_t type = at + kOne.size();
+    return text.substr(0, at) + ": its value is missing: " + text.substr(type, text.size() - kMissing.size() - type);
+  }
+  return text;
+}
+
 int run_verb(const Verb& verb) {
   try {
     return verb.run();
@@ -67,8 +81,9 @@ int run(int argc, char** argv) {
       return code;
     }
     std::string verb;
-    for (const CLI::App* command : app.get_subcommands()) verb += command->get_name() + " ";
-    return fail(one_line(error.what()) + " (twinshade " + verb + "--help lists what there is)");
+    for (auto commands = app.get_subcommands(); !commands.empty(); commands = commands.front()->get_subcommands())
+      verb += commands.front()->get_name() + " ";
+    return fail(usage_words(error) + " (twinshade " + verb + "--help lists what there is)");
   }
   for (const Verb& verb : verbs)
     if (verb.command->parsed()) {

@@ -102,7 +102,7 @@ struct EvalVerb {
       throw UserError("--cases is missing: a JSON file with the inputs of " + shader +
                       " and the outputs that are expected");
     }
-    if (many) output.require_not_taken(shader, ".json");
+    if (many) output.require_not_taken(shader, ".json", "cases");
     const std::vector<CasePaths> paths = many ? pairs_in(shader) : std::vector<CasePaths>{{shader, cases_file, ""}};
 
     output.require_not_read(files_read(paths));

@@ -11,8 +11,9 @@
 namespace twinshade {
 
 Verb add_golden(CLI::App& app) {
-  CLI::App* golden = app.add_subcommand("golden", "reference images: update makes them, check holds frames to them");
-  const std::vector<Verb> commands{add_golden_update(*golden), add_golden_check(*golden)};
+  CLI::App* golden = app.add_subcommand(
+      "golden", "reference images: update makes them, check holds frames to them, remove drops them");
+  const std::vector<Verb> commands{add_golden_update(*golden), add_golden_check(*golden), add_golden_remove(*golden)};
   for (const Verb& verb : commands)
     for (CLI::Option* option : verb.command->get_options())
       if (option->nonpositional()) option->allow_extra_args(false);  // as main() says of its verbs
@@ -24,8 +25,8 @@ Verb add_golden(CLI::App& app) {
                 return verb.run();
               }
             if (const std::vector<std::string> extra = golden->remaining(); !extra.empty())
-              throw UserError(unknown_name_message("command of golden", extra.front(), {"update", "check"}));
-            throw UserError("golden: say update or check (twinshade golden --help)");
+              throw UserError(unknown_name_message("command of golden", extra.front(), {"update", "check", "remove"}));
+            throw UserError("golden: say update, check or remove (twinshade golden --help)");
           }};
 }
 

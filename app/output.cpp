@@ -146,12 +146,12 @@ void Output::leave_stdout_to(const std::string& file) {
           fmt::format("{} -: -o {} goes to stdout, too; name a file for one of them", document.option, file));
 }
 
-void Output::require_not_taken(const std::string& folder, const std::string& ending) const {
+void Output::require_not_taken(const std::string& folder, const std::string& ending, const std::string& what) const {
   for (const auto& [option, file] : files()) {
     std::error_code code;
     const fs::path parent = fs::path(file).parent_path();
     if (fs::path(file).extension() == ending && fs::equivalent(parent.empty() ? "." : parent, folder, code))
-      throw UserError(option + ": in " + folder + " it would be taken for cases: name a file in another folder");
+      throw UserError(option + ": in " + folder + " it would be taken for " + what + ": name a file in another folder");
   }
 }
 

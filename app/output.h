@@ -36,8 +36,8 @@ class Output {
   // Tells that -o writes `file`. Where that leads to stdout, text for people moves to stderr; --json -, --junit - and
   // --html - are refused then.
   void leave_stdout_to(const std::string& file);
-  // Refuses a file in `folder` with this ending: the next run would read it.
-  void require_not_taken(const std::string& folder, const std::string& ending) const;
+  // Refuses a file in `folder` with this ending: the next run would take it for what is read there ("cases").
+  void require_not_taken(const std::string& folder, const std::string& ending, const std::string& what) const;
   void text(const std::string& text) const;  // a result, as is
   void note(const std::string& line) const;  // "note: ..." on stderr, unless --quiet; each line once
   // What is being done, on stderr where that is a terminal, unless --quiet; the next output replaces it.

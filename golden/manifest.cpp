@@ -4,6 +4,7 @@
 #include <charconv>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -58,8 +59,19 @@ class Reader {
   Json parse(const std::string& text) const {
     if (text.rfind("<<<<<<< ", 0) == 0 || text.find("\n<<<<<<< ") != std::string::npos)
       refuse("it has marks of a merge that is not resolved");
+    // The parser would take the last of two: what a merge leaves where both sides are kept.
+    std::vector<std::set<std::string>> keys;
+    std::string twice;
+    const auto look = [&](int, Json::parse_event_t event, Json& value) {
+      if (event == Json::parse_event_t::object_start) keys.emplace_back();
+      if (event == Json::parse_event_t::object_end) keys.pop_back();
+      if (event == Json::parse_event_t::key && !keys.back().insert(value).second && twice.empty()) twice = value;
+      return true;
+    };
     try {
-      return Json::parse(text);
+      Json json = Json::parse(text, look);
+      if (!twice.empty()) refuse("one object has \"" + twice + "\" twice: delete one of them");
+      return json;
     } catch (const Json::exception& error) {
       std::string reason = error.what();
       reason = reason.substr(reason.find("] ") == std::string::npos ? 0 : reason.find("] ") + 2);
@@ -171,6 +183,20 @@ std::string golden_name(const std::string& wanted) {
     if (!is_name_character(c)) c = '_';
   if (name.empty() || !begins_as_name(name.front())) name.insert(0, "_");
   return name;
+}
+
+std::vector<std::string> stray_images(const GoldenManifest& manifest) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> strays;
+  std::error_code code;
+  for (auto at = fs::directory_iterator(manifest.folder, code); !code && at != fs::end(at); at.increment(code)) {
+    const std::string name = at->path().stem().string();
+    const auto is_it = [&](const GoldenEntry& entry) { return entry.name == name; };
+    if (at->path().extension() == ".exr" && std::none_of(manifest.entries.begin(), manifest.entries.end(), is_it))
+      strays.push_back(at->path().string());
+  }
+  std::sort(strays.begin(), strays.end());
+  return strays;
 }
 
 GoldenManifest read_manifest(const std::string& folder) { return Reader(folder).read(); }

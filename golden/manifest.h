@@ -38,7 +38,11 @@ bool is_golden_name(const std::string& name);
 // Characters that a name cannot have become _.
 std::string golden_name(const std::string& wanted);
 
-// UserError naming file and entry: missing, no JSON, of another version, not as write_manifest makes it.
+// Images in the manifest's folder that belong to no entry, as after a merge that lost one: paths, sorted.
+std::vector<std::string> stray_images(const GoldenManifest& manifest);
+
+// UserError naming file and entry: missing, no JSON, of another version, not as write_manifest makes it, a
+// key that one object has twice.
 GoldenManifest read_manifest(const std::string& folder);
 // The same manifest is the same bytes: sorted by name, a line for each value. UserError where it cannot be written.
 void write_manifest(const GoldenManifest& manifest);

@@ -67,8 +67,10 @@ class GoldenCheckRun {
         provenance_(verb.common) {}
 
   int run() {
-    for (const std::string& folder : verb_.folders)
+    for (const std::string& folder : verb_.folders) {
+      require_other(folder);
       for (const GoldenEntry& entry : chosen(folder)) entries_.emplace_back(folder, entry);
+    }
     require_entries();
     protect_files();
     std::vector<std::string> names;
@@ -79,25 +81,20 @@ class GoldenCheckRun {
   }
 
  private:
-  std::vector<GoldenEntry> chosen(const std::string& folder) {
-    const GoldenManifest manifest = read_manifest(folder);
-    for (const GoldenEntry& entry : manifest.entries) known_.push_back(entry.name);
-    if (verb_.only.empty()) note_strays(manifest);
-    return chosen_entries(manifest, verb_.only, false);
+  void require_other(const std::string& folder) const {
+    std::error_code code;
+    for (const std::string& other : verb_.folders)
+      if (&other < &folder && fs::equivalent(other, folder, code)) throw UserError(folder + ": is named twice");
   }
 
-  // What a merge may have dropped from the manifest.
-  void note_strays(const GoldenManifest& manifest) const {
-    std::vector<std::string> strays;
-    std::error_code code;
-    for (auto at = fs::directory_iterator(manifest.folder, code); !code && at != fs::end(at); at.increment(code)) {
-      const std::string name = at->path().stem().string();
-      const auto is_it = [&](const GoldenEntry& entry) { return entry.name == name; };
-      if (at->path().extension() == ".exr" && std::none_of(manifest.entries.begin(), manifest.entries.end(), is_it))
-        strays.push_back(at->path().string());
-    }
-    std::sort(strays.begin(), strays.end());
-    for (const std::string& path : strays) output_.note(path + ": belongs to no entry of the manifest");
+  std::vector<GoldenEntry> chosen(const std::string& folder) {
+    require_manifest(folder);
+    const GoldenManifest manifest = read_manifest(folder);
+    for (const GoldenEntry& entry : manifest.entries) known_.push_back(entry.name);
+    if (verb_.only.empty())
+      for (const std::string& path : stray_images(manifest))
+        output_.note(path + ": belongs to no entry of the manifest");
+    return chosen_entries(manifest, verb_.only, false);
   }
 
   void require_entries() const {
@@ -117,6 +114,7 @@ class GoldenCheckRun {
                         ", whose pictures would have one name: check one folder at a time");
       read.push_back(manifest_path(folder));
       read.push_back(golden_image_path(folder, entry.name));
+      if (const std::string shader = shader_path(entry.drawing, folder); !shader.empty()) read.push_back(shader);
       for (const std::string& on : verb_.backends)
         for (std::string& name : PictureNames(entry.name, on).all()) written.push_back(std::move(name));
     }
@@ -191,10 +189,7 @@ class GoldenCheckRun {
     row.frame = frame_hash(frame);
     if (!image.frame) {
       row.result = image.trouble;
-      row.error = image.reason + "; the frame drawn has " +
-                  (row.frame == row.golden_frame ? "the hash of the manifest: twinshade golden update " + row.folder +
-                                                       " --only " + row.name + " makes the image anew"
-                                                 : "another hash than the manifest");
+      row.error = image.reason + "; the frame drawn " + says_of_trouble(row, image);
       return;
     }
     const auto alike =
@@ -212,6 +207,14 @@ class GoldenCheckRun {
     } catch (const UserError& error) {  // told last: the frames are drawn and are held to their images all the same
       if (write_error_.empty()) write_error_ = error.what();
     }
+  }
+
+  // What the frame says where the image is none, and what helps.
+  static std::string says_of_trouble(const GoldenRow& row, const GoldenImage& image) {
+    const std::string update = "twinshade golden update " + row.folder + " --only " + row.name;
+    if (row.frame == row.golden_frame) return "is the one of the manifest: " + update + " makes the image anew";
+    if (row.frame == image.other_frame) return "is the image: " + update + " makes the manifest say so";
+    return "is not the one of the manifest either: restore both from version control, or " + update + " accepts it";
   }
 
   Frame draw_with_inputs(const GoldenRow& row, const GoldenScene& scene, const FrameOutput& output) {
@@ -257,11 +260,11 @@ class GoldenCheckRun {
       results.push_back(golden_json(row));
       failures += failure_text(row);
     }
-    output_.json({{"provenance", provenance_.json()}, {"results", results}});
+    output_.text(failures + check_summary(rows_, verb_.ulp));  // first: files may be refused by a full disk
     const std::vector<CaseResult> cases = golden_results(rows_);
-    write_reports(output_, {"twinshade golden check", check_summary(rows_, verb_.ulp), cases, provenance_.json()});
-    output_.text(failures + check_summary(rows_, verb_.ulp));
     if (!verb_.reports.annotate.empty()) output_.text(github_annotations(cases));
+    output_.json({{"provenance", provenance_.json()}, {"results", results}});
+    write_reports(output_, {"twinshade golden check", check_summary(rows_, verb_.ulp), cases, provenance_.json()});
     if (!write_error_.empty()) throw UserError(write_error_);
     int code = 0;
     for (const GoldenRow& row : rows_) {

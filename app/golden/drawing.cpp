@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 #include "app/option_rules.h"
 #include "base/error.h"
@@ -53,16 +54,26 @@ bool is_path(const std::string& key, const std::string& value) {
   return key == kShader || (key == "include" && value.rfind("builtin:", 0) != 0);
 }
 
+// The first folder of an absolute path; empty for the root.
+fs::path below_root(const fs::path& path) {
+  const auto first = std::next(path.begin());
+  return first == path.end() ? fs::path() : *first;
+}
+
 // A path as seen from `folder`. Without a look at links where that leads to the same file: the folder may move with all
-// that is about it, and where a link leads need not.
+// that is about it, and where a link leads need not. An absolute path that has but the root in common with the folder's
+// stays one: such files are in that place on every machine, and the folder is not.
 std::string seen_from(const std::string& folder, const std::string& key, const std::string& path) {
   std::error_code code;
   const fs::path from = fs::absolute(folder, code).lexically_normal();
-  fs::path relative = fs::absolute(path, code).lexically_normal().lexically_relative(from / "");
-  if (relative.empty() || (fs::exists(folder, code) && !fs::equivalent(from / relative, path, code)))
-    relative = fs::relative(path, folder, code);
+  const fs::path whole = fs::absolute(path, code).lexically_normal();
+  const bool apart = fs::path(path).is_absolute() && below_root(whole) != below_root(from);
+  fs::path relative = apart ? whole : whole.lexically_relative(from / "");
+  if (fs::exists(folder, code) && fs::exists(whole, code) && !fs::equivalent(from / relative, whole, code))
+    relative = fs::relative(whole, from, code);
   std::string text = code || relative.empty() ? path : relative.generic_string();
-  if (with_characters_alone(text) != text) throw UserError(path + ": the path is no UTF-8: rename it");
+  if (with_characters_alone(text) != text)
+    throw UserError(path + ": the path has a control character, or bytes that are no UTF-8: rename it");
   return is_path(key, text) ? text : "./" + text;
 }
 

@@ -80,6 +80,14 @@ void require_folder_name(const std::string& folder) {
     throw UserError(folder + ": name the folder that it lies in");
 }
 
+void require_manifest(const std::string& folder) {
+  std::error_code code;
+  if (fs::exists(manifest_path(folder), code)) return;
+  throw UserError(
+      fmt::format("{}: there is none yet; say what to draw, as twinshade golden update {} courtyard --technique h4,sh3",
+                  manifest_path(folder), folder));
+}
+
 GoldenImage read_golden_image(const std::string& folder, const GoldenEntry& entry) {
   const std::string path = golden_image_path(folder, entry.name);
   GoldenImage image;
@@ -101,6 +109,7 @@ GoldenImage read_golden_image(const std::string& folder, const GoldenEntry& entr
       image.frame = std::move(frame);
     } else {
       image.reason = path + ": not the image that the manifest is about: its pixels have another hash";
+      image.other_frame = frame_hash(frame);
     }
   } catch (const UserError& error) {
     image.reason = error.what();
@@ -134,12 +143,16 @@ void hold_to_image(GoldenRow& row, const Frame& image, const Frame& frame, std::
   row.description = describe_mismatch(row.name, "golden", row.on, shown, image);
 }
 
+bool is_like(const std::string& name, const std::string& pattern) {
+  return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+}
+
 std::vector<GoldenEntry> chosen_entries(const GoldenManifest& manifest, const std::string& only, bool required) {
   std::vector<GoldenEntry> chosen;
   std::vector<std::string> names;
   for (const GoldenEntry& entry : manifest.entries) {
     names.push_back(entry.name);
-    if (only.empty() || ::fnmatch(only.c_str(), entry.name.c_str(), 0) == 0) chosen.push_back(entry);
+    if (only.empty() || is_like(entry.name, only)) chosen.push_back(entry);
   }
   if (!chosen.empty() || !required) return chosen;
   if (names.empty()) throw UserError(manifest_path(manifest.folder) + ": it has no entries");

@@ -37,11 +37,15 @@ CommonOptions without_results(CommonOptions options);
 // UserError where the name of a manifest's folder is empty, or that of the manifest itself.
 void require_folder_name(const std::string& folder);
 
+// UserError, saying how to make one, where a folder has no manifest.
+void require_manifest(const std::string& folder);
+
 // An entry's image, or why there is none.
 struct GoldenImage {
   std::optional<Frame> frame;
   GoldenResult trouble = GoldenResult::same;  // no_image, damaged
   std::string reason;
+  std::string other_frame;  // hash of what is there instead, where that can be read; else empty
 };
 GoldenImage read_golden_image(const std::string& folder, const GoldenEntry& entry);
 
@@ -51,8 +55,11 @@ GoldenImage read_golden_image(const std::string& folder, const GoldenEntry& entr
 void hold_to_image(GoldenRow& row, const Frame& image, const Frame& frame, std::uint64_t ulp,
                    const std::function<Frame()>& inputs);
 
-// The entries whose names are like `only`: * is any text, ? any character; all of them for an empty one. UserError
-// where there are none and one is `required`.
+// Whether a name is like a pattern: * is any text, ? any character.
+bool is_like(const std::string& name, const std::string& pattern);
+
+// The entries whose names are like `only`, all of them for an empty one. UserError where there are none and one is
+// `required`.
 std::vector<GoldenEntry> chosen_entries(const GoldenManifest& manifest, const std::string& only, bool required = true);
 
 }  // namespace twinshade

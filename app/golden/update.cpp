@@ -13,6 +13,7 @@
 #include "app/golden/verbs.h"
 #include "app/provenance.h"
 #include "base/error.h"
+#include "base/folder_lock.h"
 #include "golden/frame_file.h"
 
 namespace twinshade {
@@ -73,12 +74,8 @@ class GoldenUpdateRun {
     std::error_code code;
     const bool there = fs::exists(manifest_path(verb_.folder), code);
     const GoldenDrawing given = given_drawing(*verb_.command, verb_.folder);
-    const bool again = given.empty() && verb_.name.empty();
-    if (again && !there)
-      throw UserError(
-          fmt::format("{}: there is none yet; say what to draw, as twinshade golden update {} courtyard "
-                      "--technique h4,sh3",
-                      manifest_path(verb_.folder), verb_.folder));
+    const bool again = given.empty() && verb_.command->get_option("--name")->count() == 0;
+    if (again) require_manifest(verb_.folder);
     if (!again && !verb_.only.empty())
       throw UserError("--only: chooses among the entries that are drawn again: leave it out, or what is to be drawn");
     require_writable_folder(verb_.folder);
@@ -90,17 +87,22 @@ class GoldenUpdateRun {
       for (const GoldenEntry& entry : chosen_entries(manifest_, verb_.only)) list.push_back({entry.drawing, entry});
       return list;
     }
-    if (!verb_.name.empty() && !is_golden_name(verb_.name))
-      throw UserError("--name " + verb_.name +
-                      ": a name is made of letters, digits and ._+- and begins with none of .+-, at most 200 long");
+    if (verb_.command->get_option("--name")->count() > 0 && !is_golden_name(verb_.name))
+      throw UserError("--name '" + verb_.name +
+                      "': a name is made of letters, digits and ._+- and begins with none of .+-, at most 200 long");
     for (GoldenDrawing& single : single_drawings(given, verb_.options.shading)) list.push_back({std::move(single)});
     return list;
   }
 
   // What is there already; images of new entries are seen to one by one.
   void claim() {
-    std::vector<std::string> names{kManifestName};
-    for (const GoldenEntry& entry : manifest_.entries) names.push_back(entry.name + ".exr");
+    std::vector<std::string> names{kManifestName}, read{manifest_path(verb_.folder)};
+    for (const GoldenEntry& entry : manifest_.entries) {
+      names.push_back(entry.name + ".exr");
+      read.push_back(golden_image_path(verb_.folder, entry.name));
+    }
+    output_.require_not_read(read);
+    output_.require_not_taken(verb_.folder, ".exr", "a golden image");
     output_.claim(std::move(names));
   }
 
@@ -161,12 +163,15 @@ class GoldenUpdateRun {
       if (other.name == row.name) throw UserError("two frames would be named " + row.name + ": draw them one by one");
     row.result = GoldenResult::added;
     const std::string path = golden_image_path(verb_.folder, entry.name);
+    // Others may have added entries since the manifest was read, or do now.
+    make_folder(verb_.folder);
+    const FolderLock lock(verb_.folder);
+    if (std::error_code code; fs::exists(manifest_path(verb_.folder), code)) manifest_ = read_manifest(verb_.folder);
     if (const GoldenEntry* before = manifest_.find(entry.name))
       compare_with(row, *before, entry, drawn.frame);
     else
       require_no_other_file(path);
     if (row.result != GoldenResult::same) {
-      make_folder(verb_.folder);
       write_frame_file(path, drawn.frame);
       row.written = path;
     }

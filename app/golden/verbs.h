@@ -1,4 +1,4 @@
-// The two commands of golden.
+// The commands of golden.
 #pragma once
 
 #include "app/options.h"
@@ -7,5 +7,6 @@ namespace twinshade {
 
 Verb add_golden_update(CLI::App& golden);
 Verb add_golden_check(CLI::App& golden);
+Verb add_golden_remove(CLI::App& golden);
 
 }  // namespace twinshade

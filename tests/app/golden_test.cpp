@@ -1,8 +1,10 @@
 // The verb golden: images are drawn, kept, and held to; what differs is named with its cause.
 #include <doctest/doctest.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 #include "run_twinshade.h"
 
@@ -277,6 +279,89 @@ void main() {
   CHECK(golden_row(check(folder / "g"), "two.number")["result"] == "failed");
 }
 
+TEST_CASE("runs of update at once keep each other's entries") {
+  const Folder folder;
+  const std::string goldens = folder / "g";
+  std::vector<std::thread> runs;
+  for (const char* name : {"a", "b", "c", "d"})
+    runs.emplace_back([&, name] { CHECK(update(goldens, {"--technique", "lightmap", "--name", name}).code == 0); });
+  for (std::thread& run : runs) run.join();
+  const Run run = check(goldens);
+  CHECK(run.code == 0);
+  CHECK(run.json()["results"].size() == 4);
+}
+
+TEST_CASE("remove drops entries with their images, and images without an entry; what it does not know drops nothing") {
+  const Folder folder;
+  const std::string goldens = folder / "g";
+  REQUIRE(update(goldens, {"--technique", "h4,h6,lightmap,sh3"}).code == 0);
+  fs::copy_file(goldens + "/quad.h4.exr", goldens + "/stray.exr");
+  std::ofstream(goldens + "/quad.other.exr") << "a picture of mine";
+  const std::string manifest = golden_bytes(goldens + "/golden.json");
+  const auto remove = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"golden", "remove", goldens});
+    return run_twinshade(words);
+  };
+  check_golden_refused(remove({"quad.h4", "quad.h5"}), "did you mean 'quad.h4'");
+  check_golden_refused(remove({""}), "the entry's name is empty");
+  check_golden_refused(remove({"quad.other"}), "unknown entry 'quad.other'");
+  check_golden_refused(remove({"quad.h4", "--json", goldens + "/golden.json"}), "it would replace");
+  check_golden_refused(remove({}), "golden remove --help");
+  check_golden_refused(run_twinshade({"golden", "remove", folder / "none", "x"}), "there is none yet");
+  CHECK(golden_bytes(goldens + "/golden.json") == manifest);
+  CHECK(fs::exists(goldens + "/quad.h4.exr"));
+
+  const Run run = remove({"stray", "quad.h?", "quad.h4"});
+  CHECK_MESSAGE(run.code == 0, run.err);
+  CHECK(run.out == "removed quad.h4\nremoved quad.h6\nremoved stray\n3 removed, 2 left\n");
+  for (const char* name : {"quad.h4", "quad.h6", "stray"}) CHECK_FALSE(fs::exists(goldens + "/" + name + ".exr"));
+  CHECK(golden_bytes(goldens + "/quad.other.exr") == "a picture of mine");
+  CHECK(check(goldens).json()["results"].size() == 2);
+  const Json left = remove({"*", "--json", "-"}).json();
+  CHECK(left["left"] == 0);
+  CHECK(left["removed"][1]["name"] == "quad.sh3");
+  check_golden_refused(check(goldens, {"--quiet"}), "it has no entries");
+}
+
+TEST_CASE("where a merge took the image of one side and the manifest of the other, check says so") {
+  const Folder folder;
+  REQUIRE(update(folder / "ours", {"--technique", "h4"}).code == 0);
+  REQUIRE(update(folder / "theirs", {"--technique", "h4", "--env", "studio"}).code == 0);
+  const auto says = [&](const std::string& manifest, const std::string& image) {
+    fs::create_directories(folder / "merged");
+    for (const auto& [from, file] : {std::pair(manifest, "/golden.json"), std::pair(image, "/quad.h4.exr")})
+      fs::copy_file(folder / from + file, folder / "merged" + file, fs::copy_options::overwrite_existing);
+    const Run run = check(folder / "merged");
+    CHECK(run.code == 1);
+    return run.err;
+  };
+  CHECK(says("ours", "theirs").find("makes the image anew") != std::string::npos);
+  // Options of ours, hash of theirs: frames are drawn as the image is.
+  std::string mixed = golden_bytes(folder / "ours/golden.json");
+  const Json theirs = Json::parse(golden_bytes(folder / "theirs/golden.json"))["entries"][0];
+  mixed = edited(mixed, Json::parse(mixed)["entries"][0]["frame"], theirs["frame"]);
+  fs::create_directories(folder / "mixed");
+  std::ofstream(folder / "mixed/golden.json") << mixed;
+  CHECK(says("mixed", "ours").find("is the image") != std::string::npos);
+}
+
+TEST_CASE("files that have but the root in common with the folder are kept by absolute paths") {
+  const Folder folder;
+  const std::string name = "twinshade_golden_" + std::to_string(::getpid());
+  const fs::path elsewhere = fs::path("/dev/shm") / name;
+  if (!fs::is_directory("/dev/shm") || *std::next(fs::path(folder / "g").begin()) == "dev") return;
+  fs::create_directories(elsewhere);
+  const std::string shader = (elsewhere / "mine.frag").string();
+  std::ofstream(shader) << kGoldenShader;
+  const Run made = update(folder / "g", {"--shader", shader, "--name", "mine"});
+  CHECK_MESSAGE(made.code == 0, made.err);
+  CHECK(golden_bytes(folder / "g/golden.json").find('"' + shader + '"') != std::string::npos);
+  CHECK(check(folder / "g").code == 0);
+  fs::remove_all(elsewhere);
+  check_golden_refused(update(folder / "g", {"--shader", "none.frag"}),
+                       (fs::current_path() / "none.frag").string() + ": cannot be read");
+}
+
 TEST_CASE("entries of one scene do not depend on each other") {
   const Folder folder;
   REQUIRE(update(folder / "all", {"--technique", "unc3,unc6,h4,pca4", "--order", "3"}).code == 0);
@@ -320,14 +405,18 @@ TEST_CASE("golden refuses what it cannot do in one line, and writes nothing") {
   const Folder folder;
   const std::string goldens = folder / "goldens", shader = folder.file("mine.frag", kGoldenShader);
   check_golden_refused(run_twinshade({"golden", "update", goldens}), "there is none yet");
-  check_golden_refused(run_twinshade({"golden", "check", goldens}), "golden.json");
-  check_golden_refused(run_twinshade({"golden"}), "say update or check");
+  check_golden_refused(run_twinshade({"golden"}), "say update, check or remove");
   check_golden_refused(run_twinshade({"golden", "chekc", goldens}), "did you mean 'check'?");
   check_golden_refused(run_twinshade({"golden", "check", goldens, "--onn", "cpu"}), "--onn");
   check_golden_refused(run_twinshade({"golden", "check", ""}), "the folder's name is empty");
   check_golden_refused(update(goldens, {"--technique", "h5"}), "unknown technique 'h5'");
   check_golden_refused(update(goldens, {"--technique", "reference"}), "it has no shader");
-  check_golden_refused(update(goldens, {"--technique", "h4", "--name", "../x"}), "--name ../x");
+  check_golden_refused(update(goldens, {"--technique", "h4", "--name", "../x"}), "--name '../x'");
+  check_golden_refused(update(goldens, {"--technique", "h4", "--name", ""}), "--name ''");
+  check_golden_refused(update(goldens, {"--technique", "h4", "--name", "a", "--name", "b"}),
+                       "--name is given 2 times: give it once (twinshade golden update --help");
+  check_golden_refused(update(goldens, {"--technique"}), "--technique: its value is missing: T,...");
+  check_golden_refused(run_twinshade({"golden", "check", goldens}), "there is none yet");
   check_golden_refused(update(goldens, {"--technique", "h4", "--only", "x"}), "--only");
   check_golden_refused(update(goldens, {"--shader", folder / "none.frag"}), "none.frag");
   check_golden_refused(update(goldens, {"--shader", shader, "--technique", "h4"}), "--shader");
@@ -348,12 +437,17 @@ TEST_CASE("golden refuses what it cannot do in one line, and writes nothing") {
                        "it would replace");
   check_golden_refused(run_twinshade({"golden", "check", goldens, "--junit", goldens + "/quad.h4.exr"}),
                        "it would replace");
-  check_golden_refused(run_twinshade({"golden", "update", goldens, "--json", goldens + "/golden.json"}), "writes it");
+  check_golden_refused(run_twinshade({"golden", "update", goldens, "--json", goldens + "/golden.json"}),
+                       "it would replace");
+  check_golden_refused(update(goldens, {"--technique", "sh3", "--json", goldens + "/quad.sh3.exr"}),
+                       "it would be taken for a golden image");
   REQUIRE(update(folder / "own", {"--shader", shader, "--name", "own"}).code == 0);
   check_golden_refused(run_twinshade({"golden", "check", folder / "own", "--json", shader}), "it would replace");
   check_golden_refused(run_twinshade({"golden", "update", folder / "own", "--json", shader}), "it would replace");
   CHECK(golden_bytes(shader) == kGoldenShader);
-  check_golden_refused(check(goldens, {goldens, "-o", folder / "out"}), "two folders have an entry");
+  check_golden_refused(check(goldens, {goldens + "/."}), "is named twice");
+  fs::copy(goldens, folder / "again");
+  check_golden_refused(check(goldens, {folder / "again", "-o", folder / "out"}), "two folders have an entry");
   std::ofstream(goldens + "/quad.lightmap.exr") << "a picture of mine";
   check_golden_refused(update(goldens, {"--technique", "lightmap"}), "is no golden image");
   CHECK(golden_bytes(goldens + "/quad.lightmap.exr") == "a picture of mine");

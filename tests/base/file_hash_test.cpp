@@ -14,17 +14,12 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/hash_instructions.h"
+#include "tests/scenes/temporary_folder.h"
 
 using namespace twinshade;
 namespace fs = std::filesystem;
 
 namespace {
-
-struct TemporaryFolder {
-  fs::path path = fs::temp_directory_path() / ("twinshade_base_test_" + std::to_string(::getpid()));
-  TemporaryFolder() { fs::create_directories(path); }
-  ~TemporaryFolder() { fs::remove_all(path); }
-};
 
 std::size_t files_in(const fs::path& folder) {
   return std::size_t(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));

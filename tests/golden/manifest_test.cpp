@@ -95,6 +95,8 @@ TEST_CASE("what is wrong with a manifest is said with file and entry") {
   refused("\"draw\"", "\"drawn\"", "one: \"drawn\" is not known");
   refused("\"8x4\",\n      \"frame\"", "\"8x0\",\n      \"frame\"", "one: \"size\"");
   refused("\"quad\"", "3", "\"scene\" of \"draw\"");
+  refused("\"name\": \"one\",", "\"name\": \"two\", \"name\": \"one\",", "has \"name\" twice");
+  refused("\"quad\",", "\"quad\", \"scene\": \"house\",", "has \"scene\" twice");
   refused(std::string(64, 'a'), std::string(63, 'a'), "\"frame\" is no SHA-256");
   const std::size_t begin = good.find("    {"), end = good.rfind("\n  ]");
   refused(good.substr(begin, end - begin), good.substr(begin, end - begin) + ",\n" + good.substr(begin, end - begin),

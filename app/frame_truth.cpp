@@ -68,9 +68,10 @@ Truths trace_truths(const LitScene& lit, const SubjectOptions& subject, const Tr
 }
 
 std::string truth_line(const SubjectOptions& subject, const TruthOptions& options, const Truths& truths) {
-  return fmt::format("{} under {}, {} x {}; light traced for {} pixels by {} rays, its own noise {:.2g} %",
-                     subject.scene, subject.environment, subject.width, subject.height, truths.direct.pixels.size(),
-                     options.rays, 100 * truths.noise);
+  return fmt::format("{} under {}, {} x {}; light traced for {} pixels by {} rays, ", subject.scene,
+                     subject.environment, subject.width, subject.height, truths.direct.pixels.size(), options.rays) +
+         (std::isfinite(truths.noise) ? fmt::format("its own noise {:.2g} %", 100 * truths.noise)
+                                      : "which found none: nothing has an error");
 }
 
 Json truth_json(const TruthOptions& options, const Truths& truths) {

@@ -9,6 +9,7 @@
 
 #include "app/candidate.h"
 #include "app/frame_truth.h"
+#include "app/machines.h"
 #include "app/option_rules.h"
 #include "app/output.h"
 #include "app/provenance.h"
@@ -17,6 +18,7 @@
 #include "base/file.h"
 #include "experiments/chart.h"
 #include "experiments/pareto.h"
+#include "experiments/reference_frame.h"
 
 namespace twinshade {
 namespace {
@@ -217,10 +219,14 @@ int FrontierVerb::run() const {
   if (!folder.empty()) require_writable_folder(folder);
   require_traceable(subject.scene, "frontier");
   require_known(shading);
-  if (!shading.shader.empty()) require_known(techniques());
+  if (!shading.shader.empty()) {
+    require_known(techniques());
+    Machines(cpu, true).outputs(load_fragment_shader(shading.shader, shading.source));  // wrong GLSL: before any light
+  }
 
   Provenance provenance(common);
   const LitScene lit = load_lit_scene(subject, output);
+  require_world_surfaces(lit.scene);
   Subject own;
   if (!shading.shader.empty()) own = light_subject(lit, subject, shading, common, output);
   Subject ready = light_subject(lit, subject, techniques(), common, output);

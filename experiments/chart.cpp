@@ -150,9 +150,10 @@ Drawing draw(const LineChart& chart) {
   // A sample of a line beside its label, where colours alone do not tell
   const double sample = chart.series.size() > kSeriesColorCount ? 34 : 0;
   const double left = 76, right = chart.width - 32 - sample - widest(labels, kLabelSize);
-  const double top = 68, bottom = chart.height - 56;
+  const double top = 68, bottom = chart.height - 66;
+  const std::vector<double> values = all_values(chart.series, &Series::y);
   const Scale x(chart.x, all_values(chart.series, &Series::x), left, right);
-  const Scale y(chart.y, all_values(chart.series, &Series::y), bottom, top);
+  const Scale y(chart.y, values, bottom, top);
 
   Drawing drawing(chart.width, chart.height);
   draw_titles(drawing, chart.title, chart.subtitle);
@@ -182,7 +183,6 @@ Drawing draw(const LineChart& chart) {
     drawing.text({right + 17 + sample, place[k] + 4}, chart.series[labelled[k]].label,
                  {.size = kLabelSize, .color = color});
   }
-  const std::vector<double> values = all_values(chart.series, &Series::y);
   if (std::any_of(values.begin(), values.end(), [&](double value) { return y.below(value); })) {
     draw_down_arrow(drawing, {left + 4.5, bottom + 53}, kFaint);
     drawing.text({left + 14, bottom + 53}, below_note(y), {.size = 11, .color = kFaint});

@@ -76,7 +76,9 @@ double Scale::pixel(double value) const {
 
 std::vector<Scale::Tick> Scale::ticks() const {
   std::vector<Tick> list;
-  if (logarithmic_) {
+  // Ones, twos and fives are too few of a short axis: from 10 to 20 there is none between.
+  const bool is_short = high_ <= 4.001 * low_ && low_ >= 1e-3 && high_ <= 1e5;
+  if (logarithmic_ && !is_short) {
     const int first = int(std::floor(log10_of(low_) - 1e-9)), last = int(std::ceil(log10_of(high_) + 1e-9));
     const int every = std::max(1, (last - first) / 8);
     const bool few = log10_of(high_ / low_) < 2.5;  // decades: what lies between is read from twos and fives

@@ -28,9 +28,13 @@ ShaderSource probe(const std::string& name, const std::string& value) {
 
 }  // namespace
 
-VisiblePoints draw_visible_points(const Scene& scene, const FrameOptions& options, const DrawFunction& draw) {
+void require_world_surfaces(const Scene& scene) {
   if (scene.procedural_coefficients)
     throw UserError(scene.name + ": has no surfaces in the world that light could be traced to");
+}
+
+VisiblePoints draw_visible_points(const Scene& scene, const FrameOptions& options, const DrawFunction& draw) {
+  require_world_surfaces(scene);
   VisiblePoints out;
   out.bundle = make_bundle(scene, std::span<const LightBake>(), std::vector<LitTechnique>(), options);
   add_attribute(out.bundle, "v_normal", scene.normals);

@@ -15,6 +15,9 @@ struct VisiblePoints {
   std::vector<std::size_t> pixels;  // its place in the frame
 };
 
+// UserError where the scene has no surfaces in the world.
+void require_world_surfaces(const Scene& scene);
+
 // Position, normal and albedo of each pixel as the CPU's shaders give them (draw, on "cpu"). UserError where the scene
 // has no surfaces in the world.
 VisiblePoints draw_visible_points(const Scene& scene, const FrameOptions& options, const DrawFunction& draw);

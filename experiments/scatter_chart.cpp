@@ -105,7 +105,7 @@ std::vector<double> shown_values(const ScatterChart& chart, double ScatterChart:
 }  // namespace
 
 Drawing draw(const ScatterChart& chart) {
-  const double left = 76, right = chart.width - 32, top = 92, bottom = chart.height - 56;
+  const double left = 76, right = chart.width - 32, top = 92, bottom = chart.height - 66;
   const std::vector<double> values_x = shown_values(chart, &ScatterChart::Point::x);
   std::vector<double> values_y = shown_values(chart, &ScatterChart::Point::y);
   if (chart.limit) values_y.push_back(*chart.limit);

@@ -124,7 +124,9 @@ TEST_CASE("frontier refuses what has no light to compare") {
   };
   refused({"frontier", "quad", "--technique", "cutout"}, "technique cutout");
   refused({"frontier", "--technique", "reference"}, "reference");
-  refused({"frontier", "raster_torture", "--technique", "sh3"}, "no surfaces in the world");
+  // Before light that would take hours.
+  refused({"frontier", "raster_torture", "--volume", "256x256x256", "--probe-rays", "65536"},
+          "no surfaces in the world");
   refused({"frontier", "--reference-rays", "1"}, "--reference-rays");
   refused({"frontier", "--pixels", "0"}, "--pixels");
   refused({"frontier", "house", "--technique", "h4", "--camera", "0,500,0,0,900,0,30", "--size", "16x16", "--lightmap",
@@ -135,6 +137,26 @@ TEST_CASE("frontier refuses what has no light to compare") {
   std::vector<std::string> bake = small_quad({"bake"}, {"--technique", "h4", "-o", bundle});
   REQUIRE(run_twinshade(bake).code == 0);
   refused({"frontier", bundle, "--technique", "h4"}, "a bundle has not");
+  const std::string wrong = folder.file("wrong.frag", "#version 450\nout vec4 c;\nvoid main() { c = vec4(d); }\n");
+  refused({"frontier", "--shader", wrong, "--technique", "h4", "--lightmap", "4096", "--rays", "65536"},
+          "wrong.frag:3");
+}
+
+TEST_CASE("where rays find no light frontier and choose say so, and nothing has an error") {
+  const Folder folder;
+  // A Radiance picture, 16 x 8, all black.
+  const std::string black =
+      folder.file("black.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8 +X 16\n" + std::string(16 * 8 * 4, '\0'));
+  for (const char* verb : {"frontier", "choose"}) {
+    const Run run =
+        run_twinshade(small_quad({verb}, {"--technique", "h4", "--light", "lightmap", "--env", black, "--pixels", "50",
+                                          "--reference-rays", "8", "--rounds", "1", "--repeat", "1", "--json", "-"}));
+    CHECK_MESSAGE(run.code == (verb == std::string("choose") ? 1 : 0), run.err);
+    CHECK_MESSAGE(run.err.find("by 8 rays, which found none: nothing has an error") != std::string::npos, run.err);
+    const nlohmann::json json = run.json();
+    CHECK(json["truth"]["noise"].is_null());
+    CHECK(json["rows"][0]["error"].is_null());
+  }
 }
 
 }  // namespace twinshade

@@ -189,6 +189,27 @@ TEST_CASE("a logarithmic axis of few decades has labels between them, one of man
   CHECK(draw(chart).svg().find(">2e6</text>") != std::string::npos);
 }
 
+TEST_CASE("a logarithmic axis of less than a decade has steps between") {
+  ScatterChart chart;
+  chart.x.logarithmic = chart.y.logarithmic = true;
+  chart.points.push_back({"a", 83, 19, 0});
+  chart.groups = {"group"};
+  const std::string svg = draw(chart).svg();
+  for (const char* label : {">10</text>", ">14</text>", ">20</text>", ">50</text>", ">80</text>", ">100</text>"})
+    CHECK_MESSAGE(svg.find(label) != std::string::npos, label);
+}
+
+TEST_CASE("what is said below the axis of a line chart lies within the picture") {
+  LineChart chart;
+  chart.y.logarithmic = true;
+  chart.y.most_decades = 3;
+  chart.series.push_back({"a", {1, 2}, {1, 0}, true});
+  const std::string svg = draw(chart).svg();
+  const std::size_t words = svg.find("arrow: below the axis"), begin = svg.rfind(" y=\"", words) + 4;
+  REQUIRE(words != std::string::npos);
+  CHECK(std::stod(svg.substr(begin)) <= chart.height - 8);
+}
+
 TEST_CASE("charts without anything to show are drawn all the same") {
   CHECK(!draw(LineChart{}).png().empty());
   CHECK(!draw(BarChart{}).png().empty());

@@ -17,6 +17,15 @@ std::vector<std::string> distinct(const std::set<std::pair<std::string, std::str
   return {names.begin(), names.end()};
 }
 
+// What is tried at the next smaller size: errors do not rise at every step, so that what was within it at the size
+// before gets another try.
+template <class Keys>
+Keys to_try_next(const Keys& within, const Keys& before) {
+  Keys keys = within;
+  keys.insert(before.begin(), before.end());
+  return keys;
+}
+
 // What is tried after `at`; false where there is nothing smaller.
 bool halve(SubjectOptions& at, CoefficientStorage place) {
   const SubjectOptions before = at;
@@ -69,8 +78,11 @@ void ChoiceSearch::search_place(CoefficientStorage place, const std::vector<std:
       for (const SphereMapInfo* map : chosen_maps(shading_)) keys.insert({name, std::string(map->name)});
   }
   SubjectOptions at = subject_;
+  std::set<Key> before;
   do {
-    keys = try_size(place, at, keys);
+    std::set<Key> within = try_size(place, at, keys);
+    keys = to_try_next(within, before);
+    before = std::move(within);
   } while (!keys.empty() && halve(at, place));
   try_storages();
   for (Best& best : best_) {
@@ -82,7 +94,7 @@ void ChoiceSearch::search_place(CoefficientStorage place, const std::vector<std:
 std::set<ChoiceSearch::Key> ChoiceSearch::try_size(CoefficientStorage place, const SubjectOptions& at,
                                                    const std::set<Key>& keys) {
   const std::set<Key> within = try_width(place, at, keys);
-  std::set<Key> left = within;
+  std::set<Key> left = within, before = within;
   SubjectOptions narrower = at;
   for (;;) {
     std::erase_if(left, [&](const Key& key) {
@@ -92,7 +104,9 @@ std::set<ChoiceSearch::Key> ChoiceSearch::try_size(CoefficientStorage place, con
     });
     if (left.empty()) return within;
     ++narrower.visibility.map_halvings;
-    left = try_width(place, narrower, left);
+    std::set<Key> still = try_width(place, narrower, left);
+    left = to_try_next(still, before);
+    before = std::move(still);
   }
 }
 

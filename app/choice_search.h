@@ -46,8 +46,8 @@ class ChoiceSearch {
                const CommonOptions& common, const CpuOptions& cpu, const Truths& truths, const Output& output);
 
   // Lightmaps and volumes are halved while something is within the error, and tables likewise at each of their sizes,
-  // in the most precise storage; then the others are tried of the fewest bytes. So what is not within the error at a
-  // size is not looked at where it is smaller.
+  // in the most precise storage; then the others are tried of the fewest bytes. What is not within the error at two
+  // sizes in a row, or at the first, is not looked at where it is smaller.
   SearchResult run(const std::vector<LitTechnique>& wanted, const SearchOptions& options);
 
  private:

@@ -63,8 +63,10 @@ std::vector<CasePaths> pairs_in(const std::string& folder) {
 }
 
 // "lanes" is what shading has registers for; "double" and "float" are what people call float64 and scalar.
-constexpr const char* kEvalNumbers[] = {"lanes4", "lanes8", "lanes16", "lanes", "scalar", "float", "double", "float64"};
+constexpr const char* kEvalNumbers[] = {"lanes4", "lanes8", "lanes16", "lanes",   "scalar",
+                                        "float",  "double", "float64", "mediump", "float16"};
 
+// Of names that are not of a precision (parse_precision).
 Number number_named(const std::string& name) {
   if (name == "lanes") return natural_number(machine_isa());
   if (name == "double") return Number::float64;
@@ -83,6 +85,7 @@ struct EvalVerb {
   SourceOptions source;
   std::vector<std::string> backends{"cpu", "egl"};
   std::optional<Number> number;  // none: lanes
+  Precision precision = Precision::full;
   EvaluatorOptions options;
 
   int run() const {
@@ -117,6 +120,7 @@ struct EvalVerb {
         if (!paths[i].missing.empty()) throw UserError(paths[i].missing);
         sources[i] = load_fragment_shader(paths[i].shader, source);
         cases[i].hash = content_hash(sources[i]);
+        sources[i].precision = precision;
         cases[i].cases = parse_cases(read_file(paths[i].cases, kMostCasesBytes), paths[i].cases);
       });
     }
@@ -245,7 +249,13 @@ Verb add_eval(CLI::App& app) {
       ->type_name("A,B,...");
   command
       ->add_option_function<std::string>(
-          "--number", [verb = verb.get()](const std::string& name) { verb->number = number_named(name); },
+          "--number",
+          [verb = verb.get()](const std::string& name) {
+            if (const std::optional<Precision> emulated = parse_precision(name))
+              verb->precision = *emulated;
+            else
+              verb->number = number_named(name);
+          },
           "number type of the CPU (default: lanes, as many as registers hold)")
       ->type_name(fmt::format("{}", fmt::join(kEvalNumbers, "|")));
   add_source_options(*command, verb->source);

@@ -46,6 +46,11 @@ std::unique_ptr<Renderer> make_gl(const std::string& backend, bool) { refuse(bac
 Frame shade_gl(const Bundle&, const ShaderSource&, const Frame&, bool, const DrawOptions&) { refuse("softpipe"); }
 #endif
 
+ShaderSource of_precision(ShaderSource source, Precision precision) {
+  source.precision = precision;
+  return source;
+}
+
 }  // namespace
 
 const std::vector<std::string>& backend_names() {
@@ -81,7 +86,7 @@ Frame Machines::draw(const std::string& backend, const Bundle& bundle, const Sha
   }
   require_frame_memory(bundle.width, bundle.height, backend);
   try {
-    return renderer(backend).draw(bundle, source, options);
+    return renderer(backend).draw(bundle, of_precision(source, cpu_.precision), options);
   } catch (const UnboundError& error) {
     const std::string whole = error.variable.substr(0, error.variable.find_first_of(".["));  // of "light.colour"
     throw UserError(SourceLines(source).declaration(whole).text() + ": " + error.reason);
@@ -89,7 +94,7 @@ Frame Machines::draw(const std::string& backend, const Bundle& bundle, const Sha
 }
 
 std::vector<FrameOutput> Machines::outputs(const ShaderSource& source) const {
-  const ShaderModule& module = load_module(source, number(), cpu_.isa);
+  const ShaderModule& module = load_module(of_precision(source, cpu_.precision), number(), cpu_.isa);
   std::vector<FrameOutput> list;
   for (std::uint32_t i = 0; i < module.output_count; ++i) {
     const ShaderVariable& output = module.outputs[i];
@@ -102,7 +107,7 @@ std::vector<FrameOutput> Machines::outputs(const ShaderSource& source) const {
 }
 
 bool Machines::uses_derivatives(const ShaderSource& source) const {
-  return load_module(source, number(), cpu_.isa).uses_derivatives;
+  return load_module(of_precision(source, cpu_.precision), number(), cpu_.isa).uses_derivatives;
 }
 
 Number Machines::number() const { return cpu_.number.value_or(natural_number(cpu_.isa.value_or(machine_isa()))); }

@@ -360,8 +360,18 @@ void add_number_options(CLI::App& command, CpuOptions& options, const std::strin
   add_parsed(command, "--isa", "baseline|avx2|avx512",
              "instruction set of the CPU's shading (default: " + isa_default + ")",
              [&](const std::string& text) { options.isa = Isa(index_of(kIsaNames, "instruction set", text)); });
-  add_parsed(command, "--number", "lanes4|lanes8|lanes16|scalar|float64", "number type of the CPU's shading",
-             [&](const std::string& text) { options.number = parse_number(text); });
+  std::string numbers = fmt::format("{}", fmt::join(kNumberNames, "|"));
+  if (options.emulates) numbers += fmt::format("|{}", fmt::join(precision_names(), "|"));
+  add_parsed(command, "--number", numbers, "number type of the CPU's shading", [&](const std::string& text) {
+    if (const std::optional<Precision> precision = parse_precision(text)) {
+      if (!options.emulates)
+        throw UserError("--number " + text +
+                        ": halves have other bits and another speed by design; twinshade render and eval compute them");
+      options.precision = *precision;
+      return;
+    }
+    options.number = parse_number(text);
+  });
   add_parsed(command, "--lanes", "4|8|16", "short for --number lanesN", [&](const std::string& text) {
     if (text != "4" && text != "8" && text != "16") throw UserError("--lanes " + text + ": must be 4, 8 or 16");
     options.number = parse_number("lanes" + text);
@@ -452,6 +462,18 @@ void apply(const CommonOptions& options) {
 }
 
 const char* attribute_mode_name(AttributeMode attributes) { return kAttributeModeNames[std::size_t(attributes)]; }
+
+const std::vector<std::string>& precision_names() {
+  static const std::vector<std::string> names{"mediump", "float16"};
+  return names;
+}
+
+std::optional<Precision> parse_precision(const std::string& name) {
+  if (name == precision_names()[0]) return Precision::mediump;
+  if (name == precision_names()[1]) return Precision::half;
+  return std::nullopt;
+}
+
 Number parse_number(const std::string& name) { return Number(index_of(kNumberNames, "number type", name)); }
 
 }  // namespace twinshade

@@ -97,6 +97,8 @@ struct ShadingOptions {
 struct CpuOptions {
   std::optional<Isa> isa;
   std::optional<Number> number;
+  Precision precision = Precision::full;  // --number mediump, float16: of the number type that is drawn with else
+  bool emulates = false;                  // whether the verb takes those two
   int tile_size = 0;
 };
 
@@ -148,5 +150,9 @@ using tiled::isa_name;
 using tiled::number_name;
 const char* attribute_mode_name(AttributeMode attributes);
 Number parse_number(const std::string& name);
+// "mediump", "float16": number types that are emulated by others. None where the name is another one.
+std::optional<Precision> parse_precision(const std::string& name);
+// The two names.
+const std::vector<std::string>& precision_names();
 
 }  // namespace twinshade

@@ -65,6 +65,9 @@ struct RenderVerb {
       if (!traced && command->get_option(option)->count() > 0)
         throw UserError(std::string(option) + ": only technique reference has it; add --technique reference");
     if (traced) require_traceable();
+    if (traced && cpu.precision != Precision::full)
+      throw UserError(
+          "--number: technique reference is traced, not shaded, and has no mediump or float16: leave it out");
     Subject ready;
     if (!traced) ready = load_subject(subject, shading, common, output, file);
     const Shading shader = traced ? Shading{kReferenceTechnique, "", "", {}} : load_shadings(shading, ready).front();
@@ -168,6 +171,7 @@ Verb add_render(CLI::App& app) {
   command->add_option("--on", verb->backend, "cpu, egl, osmesa or gpu (default: cpu)")->type_name("BACKEND");
   add_attribute_option(*command, verb->attributes);
   command->add_option("-o,--output", verb->file, "picture to write, by ending: .exr, .hdr or .png")->type_name("F.exr");
+  verb->cpu.emulates = true;
   add_cpu_options(*command, verb->cpu);
   add_fma_option(*command, verb->host_fma);
   add_picture_options(*command, verb->picture);

@@ -11,6 +11,11 @@ namespace twinshade {
 
 enum class ShaderStage : std::uint8_t { fragment, compute };
 
+// What the CPU computes a shader's floats in. full: as they are declared, with 32 bits. mediump: what the shader's own
+// precision qualifiers (ES) leave to mediump or lowp is computed in 16, in IEEE halves, as a GPU may that takes them at
+// their word. half: everything is. OpenGL's backends take no notice.
+enum class Precision : std::uint8_t { full, mediump, half };
+
 // One fragment or compute shader, whole. Lines of `text` map back to files through `files`: the text contains
 //   #line N "path"     (GL_GOOGLE_cpp_style_line_directive; what glslang gets)
 // and gl_text() turns those into  #line N k  for drivers, k an index into files.
@@ -25,6 +30,7 @@ struct ShaderSource {
   int version = 450;  // of the author's #version line, 450 where there is none
   bool es = false;
   ShaderStage stage = ShaderStage::fragment;  // by the main file's name: compute where it ends in .comp
+  Precision precision = Precision::full;
 };
 
 // What stands outside of a shader's files and decides what they say.
@@ -56,7 +62,7 @@ std::string gl_text(const ShaderSource& source, const std::string& version_line,
 // Rewrites the "k:line" or "k(line)" positions of a Mesa log into "file:line".
 std::string map_driver_log(const ShaderSource& source, const std::string& log);
 
-// SHA-256 of version, es, stage and text.
+// SHA-256 of version, es, stage, text and, but for full, precision.
 std::string source_hash(const ShaderSource& source);
 
 }  // namespace twinshade

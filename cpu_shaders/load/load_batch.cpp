@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "cpu_shaders/load/open.h"
 #include "cpu_shaders/load/runtime_files.h"
+#include "cpu_shaders/translate/translate.h"
 
 namespace twinshade {
 namespace {
@@ -17,6 +18,8 @@ std::string numbered(const std::string& symbol, std::size_t k) { return symbol +
 // runtime in the real one. C symbols know no namespaces, so the module's name is made another.
 std::string unit_text(std::span<const std::string> cpp) {
   std::string text = "#include \"cpu_shaders/runtime/runtime.h\"\n";
+  if (std::ranges::any_of(cpp, [](const std::string& one) { return one.find(kHalfInclude) != std::string::npos; }))
+    text += kHalfInclude;
   for (std::size_t k = 0; k < cpp.size(); ++k) {
     text += "#undef twinshade_shader_module\n#define twinshade_shader_module " + numbered(kModuleSymbol, k) + "\n";
     text += "namespace " + numbered("batch", k) + " {\nnamespace twinshade {\nusing namespace ::twinshade;\n}\n";

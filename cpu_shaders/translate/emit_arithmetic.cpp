@@ -146,24 +146,29 @@ const char* function_of(spv::Op op) {
 
 bool FunctionEmitter::arithmetic(const Instruction& i) {
   if (const Operator o = operator_of(i.op); o.text != nullptr) {
-    define(i, binary(i, o.text, o.precedence));
+    define(i, is_narrow(i) ? in_half_operator(i, o.text) : binary(i, o.text, o.precedence));
     return true;
   }
   if (const Comparison c = comparison_of(i.op); c.text != nullptr) {
-    if (module_.type(i.type).kind == Kind::vector) {
+    if (compares_halves(i) && module_.type(i.type).kind == Kind::vector) {
+      define(i, in_half(i, std::string("glsl::") + c.function, i.operands));
+    } else if (module_.type(i.type).kind == Kind::vector) {
       Expression left = operand_as(i.operands[0], signedness(i));
       const Expression right = operand_as(i.operands[1], signedness(i));
       left.text = std::string("glsl::") + c.function + "(" + left.text + ", " + right.text + ")";
       left.precedence = 1;
       left.reads.insert(right.reads.begin(), right.reads.end());
       define(i, left);
+    } else if (compares_halves(i)) {
+      define(i, in_half_operator(i, c.text));
     } else {
       define(i, binary(i, c.text, c.text[0] == '=' || c.text[0] == '!' ? 10 : 9));
     }
     return true;
   }
   if (const char* function = function_of(i.op); function != nullptr) {
-    define(i, call_text(i, function, i.operands));
+    const bool computes = is_narrow(i) && !rounds_result(i) && i.op != spv::OpTranspose;
+    define(i, computes ? in_half(i, function, i.operands) : call_text(i, function, i.operands));
     return true;
   }
   const char* unary = i.op == spv::OpFNegate || i.op == spv::OpSNegate ? "-"
@@ -183,9 +188,11 @@ bool FunctionEmitter::arithmetic(const Instruction& i) {
   const Kind from = module_.scalar_kind(module_.value_types.at(i.operands[0])), to = module_.scalar_kind(i.type);
   if (from == Kind::real) {
     no_float64(i, to == Kind::integer ? "floatBitsToInt" : "floatBitsToUint");
+    refuse_bits(i, to == Kind::integer ? "floatBitsToInt" : "floatBitsToUint");
     define(i, call_text(i, to == Kind::integer ? "float_as_int" : "float_as_uint", i.operands));
   } else if (to == Kind::real) {
     no_float64(i, from == Kind::integer ? "intBitsToFloat" : "uintBitsToFloat");
+    refuse_bits(i, from == Kind::integer ? "intBitsToFloat" : "uintBitsToFloat");
     define(i, call_text(i, from == Kind::integer ? "int_as_float" : "uint_as_float", i.operands));
   } else {
     define(i, call_text(i, to == Kind::integer ? "to_int" : "to_uint", i.operands));

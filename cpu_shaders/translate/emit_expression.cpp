@@ -59,6 +59,10 @@ bool is_unwieldy(const std::string& text) {
 }  // namespace
 
 void FunctionEmitter::define(const Instruction& i, Expression e) {
+  if (rounds_result(i)) {
+    e.text = rounded_to_half(e.text);
+    e.precedence = 1;
+  }
   const auto found = info_.uses.find(i.result);
   const int uses = found == info_.uses.end() ? 0 : found->second;
   if (uses == 0) {
@@ -177,7 +181,9 @@ Expression FunctionEmitter::extended(const Instruction& i) {
                             : std::string("the built-in function ") + known->glsl,
            known == nullptr ? "write it out" : known->remedy);
   if (known->bits) no_float64(i, known->glsl);
-  return call_text(i, std::string("glsl::") + known->function, {i.operands.begin() + 2, i.operands.end()});
+  const std::string function = std::string("glsl::") + known->function;
+  const std::vector<Id> arguments(i.operands.begin() + 2, i.operands.end());
+  return is_narrow(i) && !rounds_result(i) ? in_half(i, function, arguments) : call_text(i, function, arguments);
 }
 
 // Functions that give two values: a struct in SPIR-V, two names here.

@@ -1,5 +1,5 @@
 // Writes one instance of a function. emit_expression.cpp has values, emit_place.cpp memory, emit_statement.cpp control
-// flow, emit_loop.cpp loops and switches.
+// flow, emit_loop.cpp loops and switches, emit_precision.cpp what is computed in half.
 #pragma once
 
 #include <array>
@@ -20,6 +20,7 @@ struct Emission {
   const SourceLines& lines;
   TypeNames& types;
   NameTable& names;
+  Precision precision = Precision::full;
   bool readable = false;
   std::map<std::pair<Id, Id>, std::string>
       tables;                     // constant tables by (function, variable) and of private constants (0, variable)
@@ -38,6 +39,9 @@ struct Expression {
 inline constexpr Id kBuffers = ~0u;
 // Marks an expression that changes something: it is written before anything else that reads or writes.
 inline constexpr Id kEffects = ~0u - 1;
+
+// An expression rounded to half, unless it is one already.
+std::string rounded_to_half(const std::string& text);
 
 class FunctionEmitter {
  public:
@@ -84,6 +88,18 @@ class FunctionEmitter {
     return kind == Kind::matrix || kind == Kind::array || kind == Kind::structure ? "" : "const ";
   }
   std::string type_of(Id value) { return types_.name(module_.value_types.at(value), at_.is_varying(value)); }
+
+  // --- emit_precision.cpp
+  bool is_relaxed(Id value) const;  // of lower precision than float, by declaration or because everything is
+  bool is_relaxed_place(Id pointer) const;
+  bool is_narrow(const Instruction& i) const;  // its result is a half
+  bool compares_halves(const Instruction& i) const;
+  Expression in_half(const Instruction& i, const std::string& function, const std::vector<Id>& arguments);
+  Expression in_half_operator(const Instruction& i, const char* op);
+  bool rounds_result(const Instruction& i) const;
+  std::string to_store(Id pointer, const std::string& value) const;
+  bool is_served_in_full() const;
+  void refuse_bits(const Instruction& i, const std::string& what) const;
 
   // --- emit_place.cpp
   struct Step {

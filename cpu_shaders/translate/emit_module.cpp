@@ -24,8 +24,9 @@ class ModuleEmitter {
         options_(options),
         translation_(translation),
         instances_(analyse_uniformity(program)),
-        types_(module_, names),
-        shared_{program, instances_, interface, lines, types_, names, options.readable, {}, "", {}} {}
+        types_(module_, names, source.precision == Precision::half),
+        shared_{program, instances_,       interface,        lines, types_, names,
+                source.precision, options.readable, {},    "",     {}} {}
 
   void run() {
     shared_.out.indent();
@@ -358,7 +359,8 @@ class ModuleEmitter {
     return "// " + source_.name + ": translated from " +
                        (source_.files.empty() ? source_.name : source_.files[0]) +
                        " by twinshade. docs/generated-code.md says how to read it.\n"
-                       "#include \"cpu_shaders/runtime/runtime.h\"\n\n"
+                       "#include \"cpu_shaders/runtime/runtime.h\"\n" +
+                       (source_.precision == Precision::full ? "" : std::string(kHalfInclude)) + "\n"
                        "#pragma GCC diagnostic ignored \"-Wunused-parameter\"\n"
                        "#pragma GCC diagnostic ignored \"-Wunused-variable\"\n"
                        "#pragma GCC diagnostic ignored \"-Wunused-but-set-variable\"\n"

@@ -87,7 +87,7 @@ void FunctionEmitter::run() {
     for (std::size_t k = 0; k < parameters.size(); ++k)
       varying |= info_.is_reference(k) && at_.is_varying(parameters[k].id);
     const std::string policy = varying ? "N" : "Steps<typename N::real, 1>";
-    out_.line("if constexpr (served::has_" + name + "<N>) {");
+    out_.line(is_served_in_full() ? "if constexpr (true) {" : "if constexpr (served::has_" + name + "<N>) {");
     out_.line("  return served::" + name + "<" + policy + ">(" + argument_text + ");");
     out_.open("} else {");
   }

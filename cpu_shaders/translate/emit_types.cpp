@@ -1,5 +1,6 @@
 #include "cpu_shaders/translate/emit_types.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -55,7 +56,23 @@ std::string float_literal(std::uint32_t bits) {
   return std::string(text) + "f";
 }
 
-TypeNames::TypeNames(const Module& module, NameTable& names) : module_(module) {
+std::uint32_t nearest_half(std::uint32_t bits) {
+  float value;
+  std::memcpy(&value, &bits, sizeof value);
+  if (std::isnan(value)) return bits;
+  if (std::fabs(value) >= 65520.0f) {
+    value = std::copysign(INFINITY, value);
+  } else if (value != 0) {
+    // The last place of a half: 2^-10 of its leading one, 2^-24 at least.
+    const float place = std::ldexp(1.0f, std::max(std::ilogb(value) - 10, -24));
+    value = std::copysign(std::nearbyint(value / place) * place, value);
+  }
+  std::memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+
+TypeNames::TypeNames(const Module& module, NameTable& names, bool half_constants)
+    : module_(module), half_constants_(half_constants) {
   std::set<Id> ids;
   for (const auto& [id, type] : module.types)
     if (type.kind == Kind::structure) ids.insert(id);
@@ -132,7 +149,7 @@ std::string TypeNames::constant(Id id) {
   const std::string type = name(c.type, false);
   switch (t.kind) {
     case Kind::real:
-      return "UF(" + float_literal(c.bits) + ")";
+      return "UF(" + float_literal(half_constants_ ? nearest_half(c.bits) : c.bits) + ")";
     case Kind::integer:
       if (c.bits == 0x80000000u) return "UI(-2147483647 - 1)";
       return "UI(" + std::to_string(static_cast<std::int32_t>(c.bits)) + ")";

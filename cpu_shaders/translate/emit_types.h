@@ -12,7 +12,8 @@ namespace twinshade::spirv {
 
 class TypeNames {
  public:
-  TypeNames(const Module& module, NameTable& names);
+  // half_constants: constants are rounded to half.
+  TypeNames(const Module& module, NameTable& names, bool half_constants);
 
   // Remembers what was asked for: write_declarations declares just that.
   std::string name(Id type, bool varying);
@@ -33,6 +34,7 @@ class TypeNames {
   };
 
   const Module& module_;
+  const bool half_constants_;
   std::set<std::string> aliases_;
   std::map<Id, StructureNames> structures_;  // all reserved at the start
   NameTable beside_members_;                 // those same names: a member of a type's name would hide it in its struct
@@ -44,5 +46,7 @@ class TypeNames {
 
 // A float literal that reads back as the same bits: short decimals where they are exact, else hexadecimal.
 std::string float_literal(std::uint32_t bits);
+// The bits of the float that is the nearest half (runtime/half_lanes.h); even where two are as near.
+std::uint32_t nearest_half(std::uint32_t bits);
 
 }  // namespace twinshade::spirv

@@ -135,6 +135,8 @@ const std::set<std::string>& reserved() {
                                               "shader_data",
                                               "shade_call",
                                               "map",
+                                              "in_half",
+                                              "to_half",
                                               "Lane",
                                               "Vec",
                                               "Mat",

@@ -82,6 +82,9 @@ struct Translation {
 // supported: remedy".
 Translation translate(const ShaderSource& source, const TranslateOptions& options = {});
 
+// The line that a translation of lower precision than full (ShaderSource) has beside that which all have.
+inline constexpr const char* kHalfInclude = "#include \"cpu_shaders/runtime/half_lanes.h\"\n";
+
 // A C identifier from any name.
 std::string identifier_from(const std::string& name);
 

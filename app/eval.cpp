@@ -193,6 +193,8 @@ struct EvalVerb {
     const auto start = Clock::now();
     try {
       backend.rows = evaluator.run(source, c.cases.table, target);
+      if (target.backend == Backend::cpu && source.precision != Precision::full)
+        backend.rows.provenance.emplace_back("precision", precision_names()[source.precision == Precision::half]);
     } catch (const BackendError& error) {
       backend.error = with_real_names(source.files, error.what());
     } catch (const UserError& error) {

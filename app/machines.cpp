@@ -86,7 +86,10 @@ Frame Machines::draw(const std::string& backend, const Bundle& bundle, const Sha
   }
   require_frame_memory(bundle.width, bundle.height, backend);
   try {
-    return renderer(backend).draw(bundle, of_precision(source, cpu_.precision), options);
+    Frame frame = renderer(backend).draw(bundle, of_precision(source, cpu_.precision), options);
+    if (backend == "cpu" && cpu_.precision != Precision::full)
+      frame.provenance.emplace_back("precision", precision_names()[cpu_.precision == Precision::half]);
+    return frame;
   } catch (const UnboundError& error) {
     const std::string whole = error.variable.substr(0, error.variable.find_first_of(".["));  // of "light.colour"
     throw UserError(SourceLines(source).declaration(whole).text() + ": " + error.reason);

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "app/dialect.h"
 #include "app/output.h"
@@ -42,6 +43,7 @@ struct TranslateVerb {
   CommonOptions common;
   std::string shader, file;
   SourceOptions source_options;
+  Precision precision = Precision::full;
 
   int run() {
     if (file == "-") file.clear();  // stdout
@@ -53,7 +55,9 @@ struct TranslateVerb {
     output.require_not_read(source.files, file);
     TranslateOptions options;
     options.readable = true;
-    const Translation translation = translate(source, options);
+    ShaderSource narrowed = source;
+    narrowed.precision = precision;
+    const Translation translation = translate(narrowed, options);
     const std::vector<LintFinding> findings = findings_of(source);  // before anything is written: it may refuse, too
     if (file.empty())
       output.text(translation.cpp);
@@ -95,6 +99,18 @@ Verb add_translate(CLI::App& app) {
   const auto verb = std::make_shared<TranslateVerb>();
   command->add_option("shader", verb->shader, "fragment shader file, or a technique")->type_name("SHADER")->required();
   command->add_option("-o,--output", verb->file, "C++ file to write (default, and -: stdout)")->type_name("F.cpp");
+  command
+      ->add_option_function<std::string>(
+          "--number",
+          [verb = verb.get()](const std::string& name) {
+            const std::optional<Precision> precision = parse_precision(name);
+            if (!precision)
+              throw UserError("--number " + name +
+                              ": must be mediump or float16; of all others the C++ is the same, generic in its number");
+            verb->precision = *precision;
+          },
+          "show what is computed in half")
+      ->type_name("mediump|float16");
   add_source_options(*command, verb->source_options);
   add_common_options(*command, verb->common);
   return {command, [verb] { return verb->run(); }};

@@ -4,7 +4,8 @@
 // denormal halves, down to 2^-24, are kept, also where those of floats are flushed: they are normal floats.
 //
 // Not part of runtime.h: translations of shaders that are to run in lower precision alone include it. All values lie in
-// lanes of float; `in_half(f, a...)` is f with its operands rounded to half and every operation within in half.
+// lanes of float; `in_half(f, a...)` is f with its operands rounded to half and every operation within in half,
+// `of_halves(f, a...)` the same where the operands are halves already.
 #pragma once
 
 #include "cpu_shaders/runtime/runtime.h"
@@ -12,8 +13,9 @@
 namespace twinshade {
 inline namespace TWINSHADE_ISA_NAMESPACE {
 
+// A function of its own: a shader has it after nearly every operation, and compilers take long over what is inlined.
 template <Lane F>
-TWINSHADE_INLINE F round_to_half(const F& x) {
+TWINSHADE_APART F round_to_half(const F& x) {
   using U = typename F::template with<std::uint32_t>;
   const U word = x.template as<std::uint32_t>(), magnitude = word & U(0x7fffffffu), sign = word & U(0x80000000u);
   const F positive = magnitude.template as<float>();
@@ -204,14 +206,17 @@ TWINSHADE_INLINE auto to_half(const T& x) {
   return detail::each_real([](const auto& lanes) TWINSHADE_LAMBDA { return round_to_half(lanes); }, x);
 }
 
-// f(a...) in half. Results are lanes of float again.
+// f(a...) in half, of numbers that are halves. Results are lanes of float again.
 template <class Function, class... A>
-TWINSHADE_INLINE auto in_half(Function f, const A&... a) {
+TWINSHADE_INLINE auto of_halves(Function f, const A&... a) {
   return detail::each_real(
       [](const auto& lanes) TWINSHADE_LAMBDA { return detail::halves(lanes); },
-      f(detail::each_real([](const auto& lanes)
-                              TWINSHADE_LAMBDA { return HalfLanes<std::remove_cvref_t<decltype(lanes)>>(lanes); },
-                          a)...));
+      f(detail::each_real([](const auto& lanes) TWINSHADE_LAMBDA { return detail::as_half(lanes); }, a)...));
+}
+// Of any numbers: they are rounded first.
+template <class Function, class... A>
+TWINSHADE_INLINE auto in_half(Function f, const A&... a) {
+  return of_halves(f, to_half(a)...);
 }
 
 }  // namespace TWINSHADE_ISA_NAMESPACE

@@ -94,6 +94,7 @@ class FunctionEmitter {
   bool is_relaxed_place(Id pointer) const;
   bool is_narrow(const Instruction& i) const;  // its result is a half
   bool compares_halves(const Instruction& i) const;
+  std::string half_call() const;
   Expression in_half(const Instruction& i, const std::string& function, const std::vector<Id>& arguments);
   Expression in_half_operator(const Instruction& i, const char* op);
   bool rounds_result(const Instruction& i) const;

@@ -52,7 +52,9 @@ bool is_call_of(const std::string& function, const std::string& text) {
 }  // namespace
 
 std::string rounded_to_half(const std::string& text) {
-  return is_call_of("to_half", text) || is_call_of("in_half", text) ? text : "to_half(" + text + ")";
+  return is_call_of("to_half", text) || is_call_of("in_half", text) || is_call_of("of_halves", text)
+             ? text
+             : "to_half(" + text + ")";
 }
 
 // Functions, variables and results alike.
@@ -100,18 +102,24 @@ bool FunctionEmitter::compares_halves(const Instruction& i) const {
          !std::all_of(i.operands.begin(), i.operands.end(), [&](Id id) { return module_.is_constant(id); });
 }
 
+// Where everything is half operands are halves; a mediump operation may have constants.
+std::string FunctionEmitter::half_call() const {
+  return shared_.precision == Precision::half ? "of_halves" : "in_half";
+}
+
 // function: its name in the runtime.
 Expression FunctionEmitter::in_half(const Instruction& i, const std::string& function,
                                     const std::vector<Id>& arguments) {
   Expression e = call_text(i, "", arguments);
-  e.text = "in_half([](const auto&... x) TWINSHADE_LAMBDA { return " + function + "(x...); }, " + e.text.substr(1);
+  e.text =
+      half_call() + "([](const auto&... x) TWINSHADE_LAMBDA { return " + function + "(x...); }, " + e.text.substr(1);
   return e;
 }
 
 Expression FunctionEmitter::in_half_operator(const Instruction& i, const char* op) {
   Expression e = call_text(i, "", i.operands);
-  e.text = "in_half([](const auto& x, const auto& y) TWINSHADE_LAMBDA { return x " + std::string(op) + " y; }, " +
-           e.text.substr(1);
+  e.text = half_call() + "([](const auto& x, const auto& y) TWINSHADE_LAMBDA { return x " + std::string(op) +
+           " y; }, " + e.text.substr(1);
   return e;
 }
 

@@ -136,6 +136,7 @@ const std::set<std::string>& reserved() {
                                               "shade_call",
                                               "map",
                                               "in_half",
+                                              "of_halves",
                                               "to_half",
                                               "Lane",
                                               "Vec",

@@ -244,11 +244,62 @@ TEST_CASE("a link that leads nowhere is one error, of the file that cannot be re
   CHECK(run.json()["cases"][0]["error"].get<std::string>().find("cannot be") != std::string::npos);
 }
 
+TEST_CASE("eval tells which rows a shader fails in mediump, and in half altogether") {
+  const Folder folder;
+  const std::string shader = folder.file("m.frag",
+                                         "#version 300 es\nprecision mediump float;\nin vec3 n; in highp float x;\n"
+                                         "layout(location = 0) out vec3 unit; layout(location = 1) out highp float y;\n"
+                                         "void main() {\n  unit = normalize(n);\n  y = fract(x * 1024.0);\n}\n");
+  const std::string json = folder.file("m.json", R"({"tolerance": {"abs": 0.002},
+                    "values": {"inputs": [{"name": "n", "type": "vec3", "values": [[0, 0.6, 0.8], [0, 180, 240]]},
+                                          {"name": "x", "type": "float", "values": [0.5, 3.7003]}],
+                               "outputs": [{"name": "unit", "type": "vec3", "values": [[0, 0.6, 0.8], [0, 0.6, 0.8]]},
+                                           {"name": "y", "type": "float", "values": [0, 0.1072]}]}})");
+  const auto outputs = [&](const std::string& number, int code) {
+    const Run run = run_twinshade({"eval", shader, "--cases", json, "--on", "cpu", "--number", number, "--json", "-"});
+    CHECK_MESSAGE(run.code == code, run.err);
+    return run.json()["cases"][0]["backends"][0]["outputs"];
+  };
+  CHECK(outputs("mediump", 1)["unit"][0][1] == doctest::Approx(0.6).epsilon(2e-3));
+  CHECK(outputs("mediump", 1)["unit"][1] == nlohmann::json::parse("[0.0, 0.0, 0.0]"));  // 90000 is infinite
+  CHECK(outputs("mediump", 1)["y"] == outputs("lanes", 0)["y"]);                        // highp
+  CHECK(outputs("float16", 1)["y"][1] == nlohmann::json::parse("[0.0]"));
+}
+
+TEST_CASE("mediump leaves a frame of a technique as it is, float16 does not, and other verbs refuse both in one line") {
+  const auto frame = [](const std::string& number) {
+    const Run run = run_twinshade({"render", "--technique", "lightmap", "--size", "64x64", "--lightmap", "32", "--rays",
+                                   "16", "--number", number, "--json", "-"});
+    REQUIRE_MESSAGE(run.code == 0, run.err);
+    return run.json()["frame"];
+  };
+  CHECK(frame("mediump") == frame("lanes4"));
+  CHECK(frame("float16") != frame("lanes4"));
+  const Folder folder;
+  const std::string shader = folder.file("a.frag", kShader);
+  const std::string refusal =
+      "--number mediump: halves have other bits and another speed by design; twinshade render and eval compute them";
+  check_refused({"check", shader, "--number", "mediump"}, refusal);
+  check_refused({"compare", "--number", "mediump"}, refusal);
+  check_refused({"bench", "--number", "mediump"}, refusal);
+  check_refused({"render", "--technique", "reference", "--number", "float16"}, "traced, not shaded");
+  check_refused({"translate", shader, "--number", "lanes4"}, "must be mediump or float16");
+  const std::string casts =
+      folder.file("b.frag", "in float x; out float c;\nvoid main() { c = float(floatBitsToInt(x)); }\n");
+  const std::string json =
+      folder.file("b.json", R"({"values": {"inputs": [{"name": "x", "type": "float", "values": [1]}],
+                                           "outputs": [{"name": "c", "type": "float", "values": [1065353216]}]}})");
+  check_refused({"eval", casts, "--cases", json, "--on", "cpu", "--number", "float16"},
+                "b.frag:2: floatBitsToInt: cannot be evaluated in half");
+  CHECK(run_twinshade({"eval", casts, "--cases", json, "--on", "cpu", "--number", "mediump"}).code == 0);
+  CHECK(run_twinshade({"translate", shader, "--number", "float16"}).out.find("of_halves(") != std::string::npos);
+}
+
 TEST_CASE("number types are refused with the list that --help has") {
   const Folder folder;
   const std::string shader = folder.file("a.frag", kShader), json = folder.file("a.json", cases("[[1, 2], [4, 6]]"));
   check_refused({"eval", shader, "--cases", json, "--number", "quad"},
-                "known: lanes4, lanes8, lanes16, lanes, scalar, float, double, float64");
+                "known: lanes4, lanes8, lanes16, lanes, scalar, float, double, float64, mediump, float16");
   CHECK(run_twinshade({"eval", "--help"}).out.find("lanes4|lanes8|lanes16|lanes|scalar|float|double|float64") !=
         std::string::npos);
 }

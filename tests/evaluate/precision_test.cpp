@@ -103,3 +103,58 @@ TEST_CASE("in half each operation is rounded, and functions of shaders/exact/ on
     CHECK(c[4 * row + 3] == half(half(half(x * z) + half(y * x)) + half(z * y)));
   }
 }
+
+// What glslang leaves undecorated, components of inputs and members of structs among it, is found all the same.
+TEST_CASE("a shader that is mediump throughout gives the same bits in mediump and in half") {
+  const std::string text = R"(#version 310 es
+precision mediump float;
+precision mediump int;
+struct Light { vec3 dir; float power[2]; mat2 turn; };
+uniform Light light;
+uniform Block { vec4 tint; float gains[3]; };
+in vec3 n; in vec2 uv; flat in int k;
+layout(location = 0) out vec4 c; layout(location = 1) out vec4 d;
+vec3 kept = vec3(0.1, 0.2, 0.3);
+const float weights[3] = float[3](0.1, 0.7, 0.2);
+float shade(in Light l, vec3 m, out float spec, inout vec3 sum) {
+  float lambert = max(dot(l.dir, m), 0.0);
+  spec = pow(lambert, 7.3) * l.power[1];
+  sum += lambert * l.power[0] * vec3(1.0, 0.9, 0.7);
+  if (lambert < 0.3) return lambert / 3.0;
+  return sqrt(lambert) + kept.y;
+}
+void main() {
+  vec3 m = normalize(n), sum = vec3(0.0);
+  float s, list[3];
+  for (int i = 0; i < 3; ++i) list[i] = weights[i] * gains[i] + uv.x * float(i);
+  float r = shade(light, m, s, sum);
+  kept += r * s;
+  list[k] -= r;
+  for (float x = 0.0; x < 1.0; x += 0.07) { if (x > uv.y) break; sum.z += x * list[(k + 1) % 3]; }
+  vec2 t = light.turn * uv * 37.1, w;
+  w.yx = fract(t);
+  bool flip = all(lessThan(w, vec2(0.7))) ^^ (t.x < 0.31);
+  c = vec4(sum, s) * tint;
+  c.w = flip ? w.x : 0.77;
+  d = vec4(reflect(m, kept), mix(list[0], list[2], 0.3)) + vec4(list[k], w, 1.0 / (0.1 + uv.y));
+})";
+  ValueTable table{24, {}, {}, {}, {}};
+  std::vector<float> n, uv;
+  std::vector<std::int64_t> k;
+  for (int row = 0; row < 24; ++row) {
+    for (int i = 0; i < 3; ++i) n.push_back(float(std::sin(1.7 * row + i)) * 2);
+    for (int i = 0; i < 2; ++i) uv.push_back(float(std::fabs(std::sin(2.3 * row + i))));
+    k.push_back(row % 3);
+  }
+  table.inputs = {floats("n", "vec3", n), floats("uv", "vec2", uv), test::ints("k", "int", k)};
+  table.uniforms = {floats("light.dir", "vec3", {0.3f, 0.5f, 0.81f}), floats("light.power", "float[2]", {0.7f, 0.45f}),
+                    floats("light.turn", "mat2", {0.6f, 0.8f, -0.8f, 0.6f}),
+                    floats("tint", "vec4", {0.9f, 0.8f, 0.7f, 0.6f}), floats("gains", "float[3]", {0.3f, 0.2f, 0.1f})};
+  Evaluator evaluator;
+  const auto listed = [&](Precision precision) {
+    return test::listing(evaluator.run(in_precision(text, precision), table, {Backend::cpu, Number::lanes4, {}}));
+  };
+  const std::vector<std::string> narrow = listed(Precision::mediump);
+  CHECK(narrow == listed(Precision::half));
+  CHECK(narrow != listed(Precision::full));
+}

@@ -25,8 +25,7 @@ class ModuleEmitter {
         translation_(translation),
         instances_(analyse_uniformity(program)),
         types_(module_, names, source.precision == Precision::half),
-        shared_{program, instances_,       interface,        lines, types_, names,
-                source.precision, options.readable, {},    "",     {}} {}
+        shared_{program, instances_, interface, lines, types_, names, source.precision, options.readable, {}, "", {}} {}
 
   void run() {
     shared_.out.indent();

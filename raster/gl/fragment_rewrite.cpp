@@ -111,9 +111,29 @@ class Rewriter {
         fail(i, text + " is not supported: no clip planes are drawn with");
       if (i + 1 >= tokens_.size() || tokens_[i + 1].text != "(") continue;
       note_derivative(tokens_[i]);
-      if (text.rfind("interpolateAt", 0) == 0 && style_ != InputStyle::varyings)
-        fail(i, text + " needs native attributes: exact ones are evaluated at pixel centres only");
+      if (text.rfind("interpolateAt", 0) == 0 && style_ != InputStyle::varyings) interpolate_at_center(i);
     }
+  }
+
+  // Of one sample a pixel the centroid and the sample are its centre, where exact attributes are: the input itself, in
+  // the call's parentheses. The sample's number goes with the call, so it may have no effects.
+  void interpolate_at_center(std::size_t name) {
+    const std::string called = tokens_[name].text;
+    const auto refuse = [&](const char* why) { fail(name, called + " needs native attributes: " + why); };
+    if (!is_any(called, {"interpolateAtCentroid", "interpolateAtSample"}))
+      refuse("exact ones are evaluated at pixel centres only");
+    std::size_t comma = 0, end = name + 2;
+    bool plain = true;
+    for (int depth = 1; end < tokens_.size(); ++end) {
+      const std::string& text = tokens_[end].text;
+      depth += is_any(text, {"(", "["}) ? 1 : is_any(text, {")", "]"}) ? -1 : 0;
+      if (depth == 0) break;
+      if (depth == 1 && text == ",") comma = end;
+      if (comma > 0 && comma < end && is_any(text, {"(", "++", "--", "=", "+=", "-=", "*=", "/=", "%="})) plain = false;
+    }
+    if (comma > 0 && !plain) refuse("without them the sample may have no effects and no calls");
+    erase(name, name + 1);
+    if (comma > 0) erase(comma, end);
   }
 
   // The first that the author takes. Exact functions stand before the shader: theirs are taken by who calls them.

@@ -58,8 +58,8 @@ inline constexpr const char* kFragCoord = "twinshade_FragCoord";
 inline constexpr const char* kFrontFacing = "twinshade_FrontFacing";
 inline constexpr const char* kPrimitiveId = "twinshade_PrimitiveID";  // not InputStyle::varyings
 
-// UserError "file:line: ..." for what cannot be rewritten: struct inputs, inputs of unknown size, interpolateAt* and
-// noperspective with InputStyle::globals, input blocks with InputStyle::varyings ...
+// UserError "file:line: ..." for what cannot be rewritten: struct inputs, inputs of unknown size, interpolateAtOffset
+// and noperspective with InputStyle::globals, input blocks with InputStyle::varyings ...
 FragmentShader rewrite_fragment_shader(const ShaderSource& source, InputStyle style);
 
 }  // namespace twinshade::gl

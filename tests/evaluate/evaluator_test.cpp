@@ -132,6 +132,27 @@ TEST_CASE("functions may have names that became built-in functions after the sha
   for (std::uint32_t k = 0; k < 4; ++k) CHECK(value_at(rows.outputs.at(0), 0, k) == expected[k]);
 }
 
+TEST_CASE("inputs at the centroid and at a sample are those of the pixel, on every machine") {
+  const std::string body =
+      "in highp float x;\nin highp vec3 v[2];\nlayout(location = 0) out highp vec4 r;\n"
+      "void main() { int i = 1; r = vec4(interpolateAtCentroid(x), interpolateAtSample(v[i], 0)); }\n";
+  for (const std::string head : {"#version 450\n", "#version 330\n#extension GL_ARB_gpu_shader5 : require\n",
+                                 "#version 320 es\nprecision highp float;\n",
+                                 "#version 310 es\n#extension GL_OES_shader_multisample_interpolation : require\n"
+                                 "precision highp float;\n"}) {
+    CAPTURE(head);
+    const EvaluatedRows rows = same_everywhere(
+        fragment(head + body),
+        {2,
+         {floats("x", "float", {5, -0.1f}), floats("v", "vec3[2]", {1, 2, 3, 4, 6, 7, 0, 0, 0, 8, 9, 11})},
+         {},
+         {},
+         {}});
+    const std::vector<double> expected = {5, 4, 6, 7, double(-0.1f), 8, 9, 11};
+    for (std::uint32_t k = 0; k < 8; ++k) CHECK(value_at(rows.outputs.at(0), k / 4, k % 4) == expected[k]);
+  }
+}
+
 TEST_CASE("functions hide the built-in ones of their names from their declaration on") {
   const std::string text =
       "#define OWN(T, f) T f(T v) { return v + T(100); }\n#define CALL(f, v) f(v)\n"

@@ -198,6 +198,15 @@ TEST_CASE("names that later versions made keywords are renamed in older shaders"
                  "precise float a"));
 }
 
+TEST_CASE("exact attributes at the centroid and at a sample are those of the pixel") {
+  const std::string text =
+      "in float a; in vec2 b[2]; out vec4 c;\nvoid main() { int i = 1;\n"
+      "c = vec4(interpolateAtCentroid(a), interpolateAtSample(b[i], i + 0), interpolateAtSample(a, 0)); }\n";
+  CHECK(contains(tokens_of(globals("#version 450\n" + text).text), "c = vec4 ( ( a ) , ( b [ i ] ) , ( a ) ) ;"));
+  const FragmentShader native = rewrite_fragment_shader(shader("#version 450\n" + text), InputStyle::varyings);
+  CHECK(contains(tokens_of(native.text), "interpolateAtSample ( b [ i ] , i + 0 )"));
+}
+
 TEST_CASE("functions that hide built-in ones are renamed, in every version, and nothing else of their calls is") {
   const std::string text =
       "int bitCount(float x) { return 7; }\nfloat interpolateAtCentroid(float x) { return x; }\n"
@@ -218,10 +227,10 @@ TEST_CASE("functions that hide built-in ones are renamed, in every version, and 
   CHECK(contains(tokens_of(before.text), "return dFdx ( a ) ;"));
   CHECK(contains(tokens_of(before.text), "c = f ( ) + twinshade_name_dFdx ( a ) ;"));
   CHECK(contains(before.derivative, ":3: dFdx"));
-  CHECK(contains(rejection("in float a;\nfloat f() { return interpolateAtCentroid(a); }\n"
-                           "float interpolateAtCentroid(float x) { return x; }\n" +
+  CHECK(contains(rejection("in float a;\nfloat f() { return interpolateAtOffset(a, vec2(0)); }\n"
+                           "float interpolateAtOffset(float x, vec2 y) { return x; }\n" +
                            kMain),
-                 ":2: interpolateAtCentroid needs native attributes"));
+                 ":2: interpolateAtOffset needs native attributes"));
   CHECK(globals("uniform float dFdx;\nout float c;\nvoid main() { float interpolateAtSample = 1.0; "
                 "c = dFdx + interpolateAtSample; }\n")
             .derivative.empty());
@@ -309,8 +318,13 @@ TEST_CASE("what cannot be rewritten is refused by name, file and line") {
   CHECK(
       contains(rejection("noperspective in float a;\n" + kMain), "test.frag:1: noperspective needs native attributes"));
   CHECK(rejection("noperspective in float a;\n" + kMain, InputStyle::varyings).empty());
-  CHECK(contains(rejection("in float a;\nout vec4 c;\nvoid main() { c = vec4(interpolateAtCentroid(a)); }\n"),
-                 "test.frag:3: interpolateAtCentroid needs native attributes"));
+  CHECK(contains(rejection("in float a;\nout vec4 c;\nvoid main() { c = vec4(interpolateAtOffset(a, vec2(0))); }\n"),
+                 "test.frag:3: interpolateAtOffset needs native attributes"));
+  for (const char* sample : {"i++", "i = 1", "f(i)"})
+    CHECK(contains(rejection("in float a;\nout vec4 c;\nint f(int i) { return i; }\nvoid main() { int i = 0; c = "
+                             "vec4(interpolateAtSample(a, " +
+                             std::string(sample) + ")); }\n"),
+                   "test.frag:4: interpolateAtSample needs native attributes: without them the sample may have"));
   CHECK(contains(rejection("layout(early_fragment_tests) in;\n" + kMain), "test.frag:1: layout(early_fragment_tests)"));
   CHECK(contains(rejection("layout(origin_upper_left) in vec4 gl_FragCoord;\n" + kMain),
                  "test.frag:1: gl_FragCoord with origin"));

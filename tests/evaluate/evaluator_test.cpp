@@ -132,6 +132,34 @@ TEST_CASE("functions may have names that became built-in functions after the sha
   for (std::uint32_t k = 0; k < 4; ++k) CHECK(value_at(rows.outputs.at(0), 0, k) == expected[k]);
 }
 
+TEST_CASE("fma is there in every version that has it, or whose extension has") {
+  for (const std::string head :
+       {"#version 450\n", "#version 330\n#extension GL_ARB_gpu_shader5 : require\n",
+        "#version 320 es\nprecision highp float;\n",
+        "#version 310 es\n#extension GL_EXT_gpu_shader5 : require\nprecision highp float;\n"}) {
+    CAPTURE(head);
+    const EvaluatedRows rows = same_everywhere(
+        fragment(head +
+                 "in highp float x;\nlayout(location = 0) out highp float r;\nvoid main() { r = fma(x, 2.0, 1.0); }\n"),
+        {2, {floats("x", "float", {5, -0.5f})}, {}, {}, {}});
+    CHECK(value_at(rows.outputs.at(0), 0, 0) == 11);
+    CHECK(value_at(rows.outputs[0], 1, 0) == 0);
+  }
+}
+
+TEST_CASE("arrays take their sizes from what they start with") {
+  const std::string text =
+      "#version 450\nin float x;\nlayout(location = 0) out vec4 r;\nstruct S { int[2] a; };\n"
+      "float[2] turned(float[2] v) { return float[](v[1], v[0]); }\n"
+      "void main() {\n  int[] a = int[](1, 2, 3);\n  int b[] = {4, 5};\n  int[][] c = int[][](int[](6, 7), int[](8, "
+      "9));\n"
+      "  S s = {{10, 11}};\n  float[] t = turned(float[](x, 2.0));\n"
+      "  r = vec4(a.length() * 100 + a[1], b[1] + c.length(), c[1][0] + s.a[1], t[0] - t[1]);\n}\n";
+  const EvaluatedRows rows = same_everywhere(fragment(text), {1, {floats("x", "float", {5})}, {}, {}, {}});
+  const std::vector<double> expected = {302, 7, 19, -3};
+  for (std::uint32_t k = 0; k < 4; ++k) CHECK(value_at(rows.outputs.at(0), 0, k) == expected[k]);
+}
+
 TEST_CASE("inputs at the centroid and at a sample are those of the pixel, on every machine") {
   const std::string body =
       "in highp float x;\nin highp vec3 v[2];\nlayout(location = 0) out highp vec4 r;\n"

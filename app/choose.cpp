@@ -162,9 +162,9 @@ int ChooseVerb::run() const {
   std::vector<std::string> notes{what};
   if (truths.noise > max_error / 2)
     notes.push_back(
-        fmt::format("the truth's own noise is {:.2g} % where {:g} % are asked for: give more "
+        fmt::format("the truth's own noise is {} % where {:g} % are asked for: give more "
                     "--reference-rays (now {}), four times as many for half of it",
-                    100 * truths.noise, 100 * max_error, truth.rays));
+                    noise_percent(truths), 100 * max_error, truth.rays));
   const Ranking ranking = rank(found, by);
   const std::optional<std::size_t> nearest = closest(found);
   const Choice* chosen = found.best.empty() ? nullptr : &found.best[ranking.order.front()];

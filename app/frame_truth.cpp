@@ -67,10 +67,15 @@ Truths trace_truths(const LitScene& lit, const SubjectOptions& subject, const Tr
   return truths;
 }
 
+std::string noise_percent(const Truths& truths) {
+  const double percent = 100 * truths.noise;
+  return percent < 99.5 ? fmt::format("{:.2g}", percent) : fmt::format("{:.0f}", percent);  // not 1e+02
+}
+
 std::string truth_line(const SubjectOptions& subject, const TruthOptions& options, const Truths& truths) {
   return fmt::format("{} under {}, {} x {}; light traced for {} pixels by {} rays, ", subject.scene,
                      subject.environment, subject.width, subject.height, truths.direct.pixels.size(), options.rays) +
-         (std::isfinite(truths.noise) ? fmt::format("its own noise {:.2g} %", 100 * truths.noise)
+         (std::isfinite(truths.noise) ? fmt::format("its own noise {} %", noise_percent(truths))
                                       : "which found none: nothing has an error");
 }
 

@@ -30,6 +30,8 @@ void require_traceable(const std::string& scene, const std::string& verb);
 Truths trace_truths(const LitScene& lit, const SubjectOptions& subject, const TruthOptions& options,
                     const CommonOptions& common, const CpuOptions& cpu, const Output& output);
 
+// The truth's own noise, without its sign %: two digits, or whole from 100 on.
+std::string noise_percent(const Truths& truths);
 // What was compared, in a line.
 std::string truth_line(const SubjectOptions& subject, const TruthOptions& options, const Truths& truths);
 Json truth_json(const TruthOptions& options, const Truths& truths);

@@ -142,6 +142,14 @@ TEST_CASE("frontier refuses what has no light to compare") {
           "wrong.frag:3");
 }
 
+TEST_CASE("noise above all light is told as a number, not as a power of ten") {
+  const Run run =
+      run_twinshade({"frontier", "house", "--env", "studio", "--size", "60x40", "--lightmap", "16", "--rays", "4",
+                     "--reference-rays", "2", "--technique", "h4", "--rounds", "1", "--repeat", "1"});
+  REQUIRE(run.code == 0);
+  CHECK_MESSAGE(run.err.find("its own noise 104 %") != std::string::npos, run.err);
+}
+
 TEST_CASE("where rays find no light frontier and choose say so, and nothing has an error") {
   const Folder folder;
   // A Radiance picture, 16 x 8, all black.

@@ -14,6 +14,7 @@
 #include "app/rows_output.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "cpu_shaders/machine.h"
 
 namespace twinshade {
 namespace {

@@ -16,6 +16,7 @@
 #include "app/rows_output.h"
 #include "app/table.h"
 #include "base/file.h"
+#include "cpu_shaders/machine.h"
 #include "experiments/chart.h"
 #include "experiments/pareto.h"
 #include "experiments/reference_frame.h"

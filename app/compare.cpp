@@ -255,6 +255,7 @@ class CompareRun {
       EvaluatorOptions options;
       options.host_fma = verb_.host_fma;
       options.time_limit_seconds = verb_.time_limit_seconds;
+      options.written_out = true;  // on gpu alone: so frames are drawn there
       Evaluator evaluator(options);
       const ValueTable table = row_of_pixel(evaluator.reflection(shader.source), subject_.bundle, frame, at.x, at.y);
       line = first_differing_line(evaluator, shader.source, table, 0, target(row.a), target(row.b));

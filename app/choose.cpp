@@ -154,7 +154,7 @@ int ChooseVerb::run() const {
     throw UserError(fmt::format("{}: no technique can be lit so: {}", subject.scene,
                                 plan.skipped.empty() ? "none shows light" : plan.skipped.front().second));
 
-  const Truths truths = trace_truths(lit, subject, truth, common, cpu, output);
+  const Truths truths = trace_truths(lit, visible_points(lit, subject, cpu, output), subject, truth, common);
   ChoiceSearch search(lit, subject, shading, common, cpu, truths, output);
   SearchResult found = search.run(wanted, {max_error, storages});
   time(found, lit, provenance, output);

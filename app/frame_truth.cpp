@@ -8,7 +8,6 @@
 
 #include "app/machines.h"
 #include "base/error.h"
-#include "experiments/reference_frame.h"
 #include "scenes/model_file.h"
 
 namespace twinshade {
@@ -29,11 +28,11 @@ void require_traceable(const std::string& scene, const std::string& verb) {
         scene, verb));
 }
 
-Truths trace_truths(const LitScene& lit, const SubjectOptions& subject, const TruthOptions& options,
-                    const CommonOptions& common, const CpuOptions& cpu, const Output& output) {
+VisiblePoints visible_points(const LitScene& lit, const SubjectOptions& subject, const CpuOptions& cpu,
+                             const Output& output) {
   Machines machines(cpu, true);
   output.progress("drawing what is visible");
-  const VisiblePoints visible =
+  VisiblePoints visible =
       draw_visible_points(lit.scene, frame_options(subject, lit.scene),
                           [&](const std::string& machine, const Bundle& bundle, const ShaderSource& source) {
                             return machines.draw(machine, bundle, source, DrawOptions());
@@ -41,7 +40,11 @@ Truths trace_truths(const LitScene& lit, const SubjectOptions& subject, const Tr
   if (visible.points.empty())
     throw UserError(subject.scene +
                     ": the camera sees no surface, so there is no light to compare; give another --camera");
+  return visible;
+}
 
+Truths trace_truths(const LitScene& lit, const VisiblePoints& visible, const SubjectOptions& subject,
+                    const TruthOptions& options, const CommonOptions& common) {
   Truths truths;
   std::vector<ShadedPoint> points;
   for (const std::size_t place : stratified_places(visible.points.size(), options.pixels, common.seed)) {

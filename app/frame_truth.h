@@ -3,6 +3,7 @@
 
 #include "app/subject.h"
 #include "experiments/frame_error.h"
+#include "experiments/reference_frame.h"
 
 namespace twinshade {
 
@@ -26,9 +27,14 @@ struct Truths {
 // UserError where `scene` is a bundle's file: rays need a scene. verb: who traces.
 void require_traceable(const std::string& scene, const std::string& verb);
 
-// Pixels are drawn at random from what is visible, which `cpu` says how to draw. UserError where that is nothing.
-Truths trace_truths(const LitScene& lit, const SubjectOptions& subject, const TruthOptions& options,
-                    const CommonOptions& common, const CpuOptions& cpu, const Output& output);
+// What light can be compared at, which `cpu` says how to draw. UserError where the camera sees nothing: ask before
+// light is baked, which takes longer.
+VisiblePoints visible_points(const LitScene& lit, const SubjectOptions& subject, const CpuOptions& cpu,
+                             const Output& output);
+
+// Pixels are drawn at random from `visible`, which is not empty.
+Truths trace_truths(const LitScene& lit, const VisiblePoints& visible, const SubjectOptions& subject,
+                    const TruthOptions& options, const CommonOptions& common);
 
 // The truth's own noise, without its sign %: two digits, or whole from 100 on.
 std::string noise_percent(const Truths& truths);

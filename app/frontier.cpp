@@ -228,18 +228,21 @@ int FrontierVerb::run() const {
   Provenance provenance(common);
   const LitScene lit = load_lit_scene(subject, output);
   require_world_surfaces(lit.scene);
+  std::string skipped;
+  for (const LitTechnique& at : plan_subject(lit, subject, techniques()).drawn)
+    shows_light(*at.technique, techniques(), skipped);
+  const VisiblePoints visible = visible_points(lit, subject, cpu, output);
   Subject own;
   if (!shading.shader.empty()) own = light_subject(lit, subject, shading, common, output);
   Subject ready = light_subject(lit, subject, techniques(), common, output);
   ready.hash = bundle_hash(ready.bundle);
   provenance.add(ready);
-  std::string skipped;
   for (const auto& [technique, reason] : ready.skipped) skipped += fmt::format("skipped {}: {}\n", technique, reason);
   std::vector<Compared> list;
   for (Candidate& candidate : light_candidates(techniques(), ready, skipped))
     list.push_back({std::move(candidate), &ready.bundle});
   if (!shading.shader.empty()) list.push_back({{load_shadings(shading, own).front(), nullptr}, &own.bundle});
-  const Truths truths = trace_truths(lit, subject, truth, common, cpu, output);
+  const Truths truths = trace_truths(lit, visible, subject, truth, common);
   measure(list, truths, output, provenance);
 
   const std::string what = truth_line(subject, truth, truths);

@@ -42,6 +42,7 @@ Verb add_choose(CLI::App& app);
 Verb add_stability(CLI::App& app);
 Verb add_eval(CLI::App& app);
 Verb add_golden(CLI::App& app);
+Verb add_mediump(CLI::App& app);
 
 // Every verb.
 struct CommonOptions {

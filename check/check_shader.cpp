@@ -4,7 +4,6 @@
 #include <bit>
 #include <chrono>
 #include <deque>
-#include <filesystem>
 #include <new>
 
 #include "base/error.h"
@@ -74,13 +73,7 @@ class Check {
   void read() {
     source_ = load_fragment_shader(result_.path, options_.source);
     result_.files = source_.files;
-    ranges_ = declared_ranges(source_);
-    std::string side_file = options_.inputs_file;
-    std::error_code code;
-    if (side_file.empty() && std::filesystem::exists(result_.path + ".inputs", code))
-      side_file = result_.path + ".inputs";
-    if (!side_file.empty())
-      for (InputRange& range : ranges_in_file(side_file)) ranges_.push_back(std::move(range));
+    ranges_ = all_ranges(source_, result_.path, options_.inputs_file);
     if (options_.make_exact) {
       exact_ = make_exact(source_);
       for (InputRange& range : ranges_) range.name = path_in(exact_, range.name);

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -218,6 +219,15 @@ std::vector<InputRange> ranges_in_file(const std::string& path) {
     if (words_of(line).empty()) continue;
     add(ranges, range_of(line, path + ":" + std::to_string(number_of_line) + ": "), "");
   }
+  return ranges;
+}
+
+std::vector<InputRange> all_ranges(const ShaderSource& source, const std::string& path, std::string side_file) {
+  std::vector<InputRange> ranges = declared_ranges(source);
+  std::error_code code;
+  if (side_file.empty() && std::filesystem::exists(path + ".inputs", code)) side_file = path + ".inputs";
+  if (!side_file.empty())
+    for (InputRange& range : ranges_in_file(side_file)) ranges.push_back(std::move(range));
   return ranges;
 }
 

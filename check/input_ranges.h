@@ -33,6 +33,9 @@ struct InputRange {
 std::vector<InputRange> declared_ranges(const ShaderSource& source);
 // From a side file; the same.
 std::vector<InputRange> ranges_in_file(const std::string& path);
+// Both, a side file's behind: `side_file`, or where that is empty SHADER.inputs beside the shader's file, if there is
+// one.
+std::vector<InputRange> all_ranges(const ShaderSource& source, const std::string& path, std::string side_file);
 
 // The range of a name, the last one that was declared; where there is none, floats -10..10, ints 0..15.
 const InputRange* find_range(const std::vector<InputRange>& ranges, const std::string& name);

@@ -13,8 +13,9 @@ enum class ShaderStage : std::uint8_t { fragment, compute };
 
 // What the CPU computes a shader's floats in. full: as they are declared, with 32 bits. mediump: what the shader's own
 // precision qualifiers (ES) leave to mediump or lowp is computed in 16, in IEEE halves, as a GPU may that takes them at
-// their word. half: everything is. OpenGL's backends take no notice.
-enum class Precision : std::uint8_t { full, mediump, half };
+// their word. half: everything is. by_line: what is on the lines that are switched on (kHalfLines, translate.h) is;
+// with all of them on as half, with none as full. OpenGL's backends take no notice.
+enum class Precision : std::uint8_t { full, mediump, half, by_line };
 
 // One fragment or compute shader, whole. Lines of `text` map back to files through `files`: the text contains
 //   #line N "path"     (GL_GOOGLE_cpp_style_line_directive; what glslang gets)

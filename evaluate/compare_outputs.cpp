@@ -41,6 +41,19 @@ bool close_enough(const OutputDifference& d, Scalar scalar, const Tolerance& tol
   return d.ulp <= tolerance.ulp || (std::isfinite(d.expected) && (d.abs <= tolerance.abs || d.rel <= tolerance.rel));
 }
 
+double times_allowed(const OutputDifference& d, Scalar scalar, const Tolerance& tolerance) {
+  if (!d.discarded && (scalar == Scalar::f32 ? d.ulp == 0 : d.expected == d.got)) return 0;
+  double least = HUGE_VAL;
+  const auto consider = [&](double distance, double allowed) {
+    if (allowed > 0 && !std::isnan(distance)) least = std::min(least, distance / allowed);
+  };
+  if (d.discarded || scalar != Scalar::f32 || !std::isfinite(d.expected)) return least;
+  if (d.ulp != kNoUlp) consider(double(d.ulp), double(tolerance.ulp));
+  consider(d.abs, tolerance.abs);
+  consider(d.rel, tolerance.rel);
+  return least;
+}
+
 }  // namespace
 
 OutputComparison compare_outputs(const Cases& cases, const EvaluatedRows& rows) {
@@ -66,6 +79,7 @@ OutputComparison compare_outputs(const Cases& cases, const EvaluatedRows& rows) 
           d.expected = wanted, d.discarded = true, d.ulp = kNoUlp;
         d.output = k, d.row = row, d.component = c;
         if (!result.worst || d.ulp > result.worst->ulp) result.worst = d;
+        result.times_allowed = std::max(result.times_allowed, times_allowed(d, scalar, cases.tolerance));
         if (!close_enough(d, scalar, cases.tolerance)) result.failures.push_back(d);
       }
     }

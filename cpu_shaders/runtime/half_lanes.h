@@ -5,7 +5,7 @@
 //
 // Not part of runtime.h: translations of shaders that are to run in lower precision alone include it. All values lie in
 // lanes of float; `in_half(f, a...)` is f with its operands rounded to half and every operation within in half,
-// `of_halves(f, a...)` the same where the operands are halves already.
+// `of_halves(f, a...)` the same where the operands are halves already, `in_half_if` where a line is switched on.
 #pragma once
 
 #include "cpu_shaders/runtime/runtime.h"
@@ -217,6 +217,23 @@ TWINSHADE_INLINE auto of_halves(Function f, const A&... a) {
 template <class Function, class... A>
 TWINSHADE_INLINE auto in_half(Function f, const A&... a) {
   return of_halves(f, to_half(a)...);
+}
+
+// By line: the switches, which are the uniforms from `own` on, behind the shader's own.
+TWINSHADE_INLINE const std::uint32_t* half_switches(const BufferView& own) {
+  return reinterpret_cast<const std::uint32_t*>(own.bytes + own.size);
+}
+TWINSHADE_INLINE bool half_here(const std::uint32_t* switches, int line) { return switches[line] != 0; }
+template <class T>
+TWINSHADE_INLINE T to_half_if(bool half, T x) {
+  if (half) x = to_half(x);
+  return x;
+}
+template <class Function, class... A>
+TWINSHADE_INLINE auto in_half_if(bool half, Function f, const A&... a) {
+  auto result = f(a...);
+  if (half) result = in_half(f, a...);
+  return result;
 }
 
 }  // namespace TWINSHADE_ISA_NAMESPACE

@@ -422,7 +422,8 @@ std::string source_hash(const ShaderSource& source) {
   Sha256 hash;
   hash.add(std::to_string(source.version) + (source.es ? " es\n" : "\n"));
   if (source.stage == ShaderStage::compute) hash.add("compute\n");
-  if (source.precision != Precision::full) hash.add(source.precision == Precision::half ? "half\n" : "mediump\n");
+  static constexpr const char* kPrecisions[] = {"", "mediump\n", "half\n", "by line\n"};
+  hash.add(kPrecisions[int(source.precision)]);
   hash.add(source.text);
   return hash.hex();
 }

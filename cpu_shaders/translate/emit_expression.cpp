@@ -60,7 +60,7 @@ bool is_unwieldy(const std::string& text) {
 
 void FunctionEmitter::define(const Instruction& i, Expression e) {
   if (rounds_result(i)) {
-    e.text = rounded_to_half(e.text);
+    e.text = rounded(i, e.text);
     e.precedence = 1;
   }
   const auto found = info_.uses.find(i.result);

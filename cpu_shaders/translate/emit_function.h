@@ -22,9 +22,11 @@ struct Emission {
   NameTable& names;
   Precision precision = Precision::full;
   bool readable = false;
+  std::string half_lines;  // Precision::by_line: the name of the switches
   std::map<std::pair<Id, Id>, std::string>
       tables;                     // constant tables by (function, variable) and of private constants (0, variable)
   std::string no_float64_reason;  // set by the first bit cast
+  std::vector<Position> switched;  // lines, by switch
   Writer out;
 };
 
@@ -91,14 +93,17 @@ class FunctionEmitter {
 
   // --- emit_precision.cpp
   bool is_relaxed(Id value) const;  // of lower precision than float, by declaration or because everything is
+  bool everything_may_be_half() const;
   bool is_relaxed_place(Id pointer) const;
   bool is_narrow(const Instruction& i) const;  // its result is a half
   bool compares_halves(const Instruction& i) const;
-  std::string half_call() const;
+  std::string half_switch(const Instruction& i);
+  std::string half_call(const Instruction& i);
+  std::string rounded(const Instruction& i, const std::string& text);
   Expression in_half(const Instruction& i, const std::string& function, const std::vector<Id>& arguments);
   Expression in_half_operator(const Instruction& i, const char* op);
   bool rounds_result(const Instruction& i) const;
-  std::string to_store(Id pointer, const std::string& value) const;
+  std::string to_store(const Instruction& i, const std::string& value);
   bool is_served_in_full() const;
   void refuse_bits(const Instruction& i, const std::string& what) const;
 

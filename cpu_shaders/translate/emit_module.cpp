@@ -25,16 +25,18 @@ class ModuleEmitter {
         translation_(translation),
         instances_(analyse_uniformity(program)),
         types_(module_, names, source.precision == Precision::half),
-        shared_{program, instances_, interface, lines, types_, names, source.precision, options.readable, {}, "", {}} {}
+        shared_{program, instances_, interface, lines, types_, names, source.precision, options.readable, "", {}, "", {}, {}} {}
 
   void run() {
     shared_.out.indent();
+    if (source_.precision == Precision::by_line) shared_.half_lines = names_.declare("half_lines");
     name_functions();
     choose_inlined();
     find_varying_indices();
     const std::string tables = aside([&] { constant_tables(); });
     const std::string members = aside([&] { write_members(); });
     const std::string functions = aside([&] { write_functions(); });
+    reflect_half_lines();
     interface_.reflection.no_float64_reason = shared_.no_float64_reason;
     translation_.reflection = interface_.reflection;
     const std::string types = aside([&] { types_.write_declarations(shared_.out); });
@@ -183,6 +185,7 @@ class ModuleEmitter {
         outputs_ += "    output(" + std::to_string(g.first_component) + ", " + g.name + ");\n";
       if (g.role == Role::frag_depth) outputs_ += "    frag_depth(" + g.name + ");\n";
     }
+    if (!shared_.half_lines.empty()) out.line("const std::uint32_t* " + shared_.half_lines + ";");
     write_constructor();
     out.line("");
     out.open("TWINSHADE_FUNCTION void run() {");
@@ -250,6 +253,9 @@ class ModuleEmitter {
         "TWINSHADE_INLINE Shader(const ShaderData& shader_data, const ShadeCall& shade_call) : Base(shader_data, "
         "shade_call) {");
     bool has_memory = false;
+    if (!shared_.half_lines.empty())
+      out.line(shared_.half_lines + " = half_switches(this->uniforms(" +
+               std::to_string(interface_.reflection.uniform_bytes) + "));");
     for (Id id : module_.globals) {
       const auto found = interface_.globals.find(id);
       if (found == interface_.globals.end() || !found->second.mentioned) continue;
@@ -352,6 +358,21 @@ class ModuleEmitter {
       shared_.out.line("");
       FunctionEmitter(shared_, *i, in_double.count(i) != 0).run();
     }
+  }
+
+  // Behind the shader's own uniforms. Which lines there are is known once its functions are written.
+  void reflect_half_lines() {
+    if (shared_.switched.empty()) return;
+    Reflection& reflection = interface_.reflection;
+    for (const Position& line : shared_.switched) reflection.half_lines.emplace_back(line.file, line.line);
+    ReflectedUniform switches;
+    switches.name = kHalfLines;
+    switches.scalar = Scalar::u32;
+    switches.array_length = std::uint32_t(shared_.switched.size());
+    switches.offset = reflection.uniform_bytes;
+    switches.array_stride = 4;
+    reflection.uniforms.push_back(switches);
+    reflection.uniform_bytes += 4 * switches.array_length;
   }
 
   std::string head() const {

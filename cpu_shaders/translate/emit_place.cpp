@@ -220,7 +220,7 @@ void FunctionEmitter::store(const Instruction& i) {
     position(i.file, i.line);
     const Id type = module_.variables.at(root).type;
     const std::string name = declare(root, local_name(root));
-    const std::string text = types_.name(type, at_.is_varying(root)) + " " + name + " = " + to_store(i.operands[0], v.text);
+    const std::string text = types_.name(type, at_.is_varying(root)) + " " + name + " = " + to_store(i, v.text);
     for (const auto& [loop_statement, init] : regions_.loop_init) {
       if (init != &i) continue;
       for_init_ = text;
@@ -233,7 +233,7 @@ void FunctionEmitter::store(const Instruction& i) {
   const Expression v = value(i.operands[1]);
   before_write(p.buffer != nullptr ? kBuffers : p.root);
   position(i.file, i.line);
-  store_to(i, p, to_store(i.operands[0], v.text));
+  store_to(i, p, to_store(i, v.text));
 }
 
 void FunctionEmitter::store_to(const Instruction& i, const Place& p, const std::string& stored) {

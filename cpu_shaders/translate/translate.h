@@ -70,7 +70,13 @@ struct Reflection {
   std::uint32_t local_size[3] = {0, 0, 0}, shared_bytes = 0;  // compute shaders
   bool uses_barrier = false;
   std::string no_float64_reason;  // empty: it can run in double
+  // Of Precision::by_line: the lines, as messages name them, that compute or keep floats, one for each of kHalfLines.
+  std::vector<std::pair<std::string, int>> half_lines;
 };
+
+// The uniform, an array of uint, of translations that are Precision::by_line: which lines are computed in half, where
+// not 0. No name of GLSL's.
+inline constexpr const char* kHalfLines = "half lines";
 
 struct Translation {
   std::string cpp;

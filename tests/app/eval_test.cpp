@@ -266,6 +266,45 @@ TEST_CASE("eval tells which rows a shader fails in mediump, and in half altogeth
   CHECK(outputs("float16", 1)["y"][1] == nlohmann::json::parse("[0.0]"));
 }
 
+TEST_CASE("mediump tells which lines may be in 16 bits, over inputs made up or of cases") {
+  const Folder folder;
+  const std::string shader =
+      folder.file("tiles.frag",
+                  "in vec2 uv;  // @input uv 0..40\nin float glow;  // @input glow 0..1\nout vec2 c;\n"
+                  "void main() {\n  vec2 cell = fract(uv * 8.0);\n  float tint = glow * 0.5;\n"
+                  "  c = vec2(step(0.5, cell.x), tint);\n}\n");
+  const Run run = run_twinshade({"mediump", shader, "--json", folder / "lines.json"});
+  REQUIRE_MESSAGE(run.code == 0, run.err);
+  CHECK_MESSAGE(run.out.find("\n   5  highp") != std::string::npos, run.out);
+  CHECK_MESSAGE(run.out.find("2 of 3 lines may be mediump at once") != std::string::npos, run.out);
+  const nlohmann::json json = nlohmann::json::parse(read_file(folder / "lines.json"));
+  REQUIRE(json["lines"].size() == 3);
+  CHECK(json["lines"][0]["line"] == 5);
+  CHECK(json["lines"][0]["text"] == "vec2 cell = fract(uv * 8.0);");
+  CHECK(json["lines"][0]["may_be"] == "highp");
+  CHECK(json["lines"][0]["off_alone"] == doctest::Approx(510));  // the other half of a cell
+  CHECK(json["lines"][1]["may_be"] == "mediump");
+  CHECK(json["off_together"] <= 1);
+  CHECK(json["rows"] == 2048);
+
+  // Coordinates of one tile stand it.
+  const auto cases_with = [](const std::string& tint) {
+    return R"({"values": {"inputs": [{"name": "uv", "type": "vec2", "values": [[0.03, 0.0], [0.1, 0.0]]},
+                                     {"name": "glow", "type": "float", "values": [0.3, 0.7]}],
+                          "outputs": [{"name": "c", "type": "vec2", "values": [[0, )" +
+           tint + R"(], [1, 0.35]]}]}, "tolerance": {"abs": 0.001}})";
+  };
+  const std::string cases = folder.file("tiles.json", cases_with("0.15"));
+  const Run given = run_twinshade({"mediump", shader, "--cases", cases});
+  CHECK_MESSAGE(given.out.find("3 of 3 lines may be mediump at once") != std::string::npos, given.err);
+
+  check_refused({"mediump", shader, "--abs", "-1"}, "--abs -1: must be a number, 0 or more");
+  check_refused({"mediump", shader, "--cases", cases, "--rel", "0.1"}, "excludes");
+  check_refused({"mediump", folder / "none.frag"}, "none.frag");
+  const std::string wrong = folder.file("wrong.json", cases_with("0.2"));
+  check_refused({"mediump", shader, "--cases", wrong}, "wrong.json: 1 rows are beyond the tolerance in float already");
+}
+
 TEST_CASE("mediump leaves a frame of a technique as it is, float16 does not, and other verbs refuse both in one line") {
   const auto frame = [](const std::string& number) {
     const Run run = run_twinshade({"render", "--technique", "lightmap", "--size", "64x64", "--lightmap", "32", "--rays",

@@ -122,15 +122,15 @@ TEST_CASE("frontier refuses what has no light to compare") {
     CHECK(run.code == 2);
     CHECK_MESSAGE(run.err.find(reason) != std::string::npos, run.err);
   };
-  refused({"frontier", "quad", "--technique", "cutout"}, "technique cutout");
   refused({"frontier", "--technique", "reference"}, "reference");
   // Before light that would take hours.
+  refused({"frontier", "quad", "--technique", "cutout", "--lightmap", "4096", "--rays", "65536"}, "technique cutout");
   refused({"frontier", "raster_torture", "--volume", "256x256x256", "--probe-rays", "65536"},
           "no surfaces in the world");
   refused({"frontier", "--reference-rays", "1"}, "--reference-rays");
   refused({"frontier", "--pixels", "0"}, "--pixels");
   refused({"frontier", "house", "--technique", "h4", "--camera", "0,500,0,0,900,0,30", "--size", "16x16", "--lightmap",
-           "16", "--rays", "1"},
+           "4096", "--rays", "65536"},
           "sees no surface");
   const Folder folder;
   const std::string bundle = folder / "a.bundle";

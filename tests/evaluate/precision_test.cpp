@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "cpu_shaders/translate/translate.h"
 #include "tests/evaluate/tables.h"
 
 using namespace twinshade;
@@ -52,6 +53,16 @@ const std::string kMobile =
     "  float moved = x * 1024.0;\n"
     "  sums = vec3(narrow, wide, x * 1024.0 - moved);\n"
     "}\n";
+
+// By line, with every one of the lines in half or none.
+std::vector<std::string> by_line(Evaluator& evaluator, const std::string& text, ValueTable table, bool half) {
+  const ShaderSource shader = in_precision(text, Precision::by_line);
+  const std::size_t lines = evaluator.reflection(shader).half_lines.size();
+  REQUIRE(lines > 0);
+  table.uniforms.push_back({kHalfLines, {Scalar::u32, 1, 1, std::uint32_t(lines)}, {}, {}});
+  table.uniforms.back().bits.assign(lines, half);
+  return test::listing(evaluator.run(shader, table, {Backend::cpu, Number::lanes4, {}}));
+}
 
 }  // namespace
 
@@ -157,4 +168,27 @@ void main() {
   const std::vector<std::string> narrow = listed(Precision::mediump);
   CHECK(narrow == listed(Precision::half));
   CHECK(narrow != listed(Precision::full));
+  CHECK(by_line(evaluator, text, table, true) == narrow);
+  CHECK(by_line(evaluator, text, table, false) == listed(Precision::full));
+}
+
+TEST_CASE("with every line in half a shader gives the bits of half, with none those of float") {
+  const std::string text =
+      "#include \"exact/sin_cos.glsl\"\n#include \"exact/dot.glsl\"\nin vec3 half_lines;\n"
+      "out vec4 c;\nuniform float first[2];\n"
+      "float of_halves(float x) { return x; }\n"
+      "float half_here(float x) { return x; }\n"
+      "void main() {\n"
+      "  c = vec4(0.1, exact_sin(half_lines.x), exact_dot(half_lines, half_lines.zxy), first[1]);\n"
+      "  c.x += of_halves(half_here(0.3)) * -half_lines.x;\n"
+      "  if (half_lines.y > 1.7001) c.w = dFdx(half_lines.z);\n}\n";
+  const ValueTable table{4,
+                         {floats("half_lines", "vec3", {0.3f, 1.7f, 0.123f, 1.1f, 2.2f, 3.3f, 7, 8, 9.3f, 0, 0, 0.1f})},
+                         {floats("first", "float[2]", {0.1f, 0.7f})},
+                         {},
+                         {}};
+  Evaluator evaluator;
+  for (const Precision whole : {Precision::full, Precision::half})
+    CHECK(by_line(evaluator, text, table, whole == Precision::half) ==
+          test::listing(evaluator.run(in_precision(text, whole), table, {Backend::cpu, Number::lanes4, {}})));
 }

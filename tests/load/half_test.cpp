@@ -39,15 +39,17 @@ void main() {
 
 }  // namespace
 
-TEST_CASE("translations in half and in mediump compile") {
+TEST_CASE("translations in half, in mediump and by line compile") {
   shared_cache();
   std::vector<ShaderSource> sources{resolve_shader("every_function", kFunctions, "every_function.frag")};
   std::string mobile = kFunctions;
   mobile.replace(0, mobile.find('\n'), "#version 320 es\nprecision mediump float; precision mediump sampler2DArray;");
   sources.push_back(resolve_shader("in_mediump", mobile, "in_mediump.frag"));
+  sources.push_back(sources[0]);
+  sources.back().precision = Precision::by_line;
   std::vector<std::string> cpp;
   for (ShaderSource& source : sources) {
-    source.precision = source.es ? Precision::mediump : Precision::half;
+    if (source.precision == Precision::full) source.precision = source.es ? Precision::mediump : Precision::half;
     cpp.push_back(translate(source).cpp);
   }
   BatchOptions options;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "app/machines.h"
 #include "app/output.h"
 #include "app/provenance.h"
 #include "app/table.h"

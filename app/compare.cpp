@@ -9,6 +9,7 @@
 #include "app/compare_report.h"
 #include "app/dialect.h"
 #include "app/first_line_report.h"
+#include "app/first_line_search.h"
 #include "app/junit.h"
 #include "app/machines.h"
 #include "app/mismatch.h"
@@ -19,7 +20,6 @@
 #include "app/subject.h"
 #include "app/table.h"
 #include "base/error.h"
-#include "check/pixel_row.h"
 #include "cpu_shaders/machine.h"
 #include "golden/compare_frames.h"
 #include "golden/pictures.h"
@@ -239,30 +239,10 @@ class CompareRun {
     row.description += describe_findings(row.findings);
   }
 
-  EvaluationTarget target(const std::string& backend) const {
-    EvaluationTarget target;
-    target.backend = backend_named(backend);
-    target.number = verb_.cpu.number.value_or(natural_number(verb_.cpu.isa.value_or(machine_isa())));
-    target.isa = verb_.cpu.isa;
-    return target;
-  }
-
-  // The pixel's inputs once more, outside of the frame, with probes in the shader.
   FirstLine look_inside(const Shading& shader, const ComparedShader& row, const Frame& frame, const Difference& at) {
     output_.progress(fmt::format("looking for the first line of {} that differs", shader.label()));
-    FirstLine line;
-    try {
-      EvaluatorOptions options;
-      options.host_fma = verb_.host_fma;
-      options.time_limit_seconds = verb_.time_limit_seconds;
-      options.written_out = true;  // on gpu alone: so frames are drawn there
-      Evaluator evaluator(options);
-      const ValueTable table = row_of_pixel(evaluator.reflection(shader.source), subject_.bundle, frame, at.x, at.y);
-      line = first_differing_line(evaluator, shader.source, table, 0, target(row.a), target(row.b));
-    } catch (const std::runtime_error& error) {  // UserError, BackendError
-      line.note = std::string("not looked for: ") + error.what();
-    }
-    return line;
+    return first_line_at(shader.source, subject_.bundle, frame, at, row.a, row.b,
+                         {verb_.cpu, verb_.host_fma, verb_.time_limit_seconds});
   }
 
   ComparedShader row_of(const Shading& shader, const std::string& a, const std::string& b) const {

@@ -157,7 +157,8 @@ Verb add_mediump(CLI::App& app) {
         ->type_name("E")
         ->excludes(cases);
   };
-  add_distance("--abs", verb->tolerance.abs, "how far off an output may be (default: 1/510, half a step of 8 bits)");
+  add_distance("--abs", verb->tolerance.abs,
+               "how far off an output may be (default: 1/510, half a step of 8 bits; beside --rel, too)");
   add_distance("--rel", verb->tolerance.rel, "... as a part of its value; either is enough (default: 0)");
   add_whole_option(*command, "--rows", "rows of generated inputs (default: 2048)", 1, kMostTableRows,
                    [verb = verb.get()](std::uint64_t rows) { verb->generate.rows = std::size_t(rows); });

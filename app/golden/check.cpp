@@ -11,6 +11,7 @@
 #include <set>
 
 #include "app/dialect.h"
+#include "app/first_line_search.h"
 #include "app/golden/drawing.h"
 #include "app/golden/report.h"
 #include "app/golden/scene.h"
@@ -199,7 +200,10 @@ class GoldenCheckRun {
     hold_to_image(row, *image.frame, frame, verb_.ulp, captured);
     if (row.passes()) return;
     if (told) row.description = fmt::format("\n{}: {} draws the same bits as {}\n", row.name, row.on, alike->on);
-    if (!told) row.findings = findings_of(scene.shading.source);
+    if (!told) {
+      row.findings = findings_of(scene.shading.source);
+      look_inside(row, scene, output, before);
+    }
     try {
       if (!verb_.reports.html.empty() && row.comparison && pictured_++ < kMostPictured)
         row.pictures = mismatch_pictures("golden", *image.frame, row.on, frame, row.comparison->first);
@@ -224,6 +228,21 @@ class GoldenCheckRun {
       output_.note(fmt::format("{} on {}: inputs of the shader are not known: {}", row.name, row.on, error.what()));
       return {};
     }
+  }
+
+  // Where the CPU still draws the image it is the backend that computes something else: on which line. Once for each
+  // shader, which takes seconds.
+  void look_inside(GoldenRow& row, const GoldenScene& scene, const FrameOutput& output,
+                   const std::vector<GoldenRow>& before) {
+    if (row.on == "cpu" || !row.comparison || !row.comparison->first || row.comparison->first->layer != "color") return;
+    const auto cpu = std::find_if(before.begin(), before.end(), [](const auto& other) { return other.on == "cpu"; });
+    if (cpu != before.end() && cpu->frame != row.golden_frame) return;
+    if (!looked_into_.insert({scene.shader_hash, row.on}).second) return;
+    const Frame inputs = draw("cpu", scene, output, true);
+    if (cpu == before.end() && frame_hash(inputs) != row.golden_frame) return;
+    output_.progress(fmt::format("looking for the first line of {} that differs on {}", row.name, row.on));
+    row.first_line = first_line_at(scene.shading.source, scene.subject.bundle, inputs, *row.comparison->first, "cpu",
+                                   row.on, {verb_.cpu, verb_.host_fma, verb_.time_limit_seconds});
   }
 
   // An earlier run's would stay beside frames that are the same now.
@@ -285,6 +304,7 @@ class GoldenCheckRun {
   std::vector<std::pair<std::string, GoldenEntry>> entries_;  // of a folder
   Table table_;                                               // its columns: rows are not kept
   std::vector<GoldenRow> rows_;
+  std::set<std::pair<std::string, std::string>> looked_into_;  // shaders by hash, and backends
   std::size_t drawn_ = 0, pictured_ = 0;
   bool headed_ = false;
   std::string write_error_;  // of the first picture that could not be written

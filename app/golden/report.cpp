@@ -6,6 +6,7 @@
 #include <array>
 
 #include "app/dialect.h"
+#include "app/first_line_report.h"
 #include "app/mismatch.h"
 
 namespace twinshade {
@@ -107,7 +108,9 @@ std::string cause(const GoldenRow& row) {
 std::string failure_text(const GoldenRow& row) {
   if (row.passes()) return "";
   if (!row.error.empty()) return place(row) + ": " + row.error + '\n';
-  return row.description + "  " + cause(row) + '\n' + describe_findings(row.findings);
+  return row.description + "  " + cause(row) + '\n' +
+         (row.first_line ? first_line_text(*row.first_line, "cpu", row.on, row.findings) : "") +
+         describe_findings(row.findings);
 }
 
 std::string check_summary(const std::vector<GoldenRow>& rows, std::uint64_t ulp) {
@@ -134,6 +137,7 @@ Json golden_json(const GoldenRow& row) {
   if (!row.error.empty()) json["error"] = row.error;
   if (row.comparison) add_comparison(json, *row.comparison, row.first_difference);
   json["changed"] = changed_names(row.changes);
+  if (row.first_line) json["first_line"] = first_line_json(*row.first_line, row.findings);
   if (!row.findings.empty()) json["outside_exact_dialect"] = findings_json(row.findings);
   json["golden_frame"] = row.golden_frame.empty() ? Json(nullptr) : Json(row.golden_frame);
   json["frame"] = row.frame.empty() ? Json(nullptr) : Json(row.frame);
@@ -155,6 +159,11 @@ std::vector<CaseResult> golden_results(const std::vector<GoldenRow>& rows) {
         c.message = fmt::format("{} of {} pixels differ from the golden image: {}", row.comparison->pixels_differ,
                                 row.comparison->shaded_pixels, cause(row));
       c.text = row.error.empty() ? failure_text(row) : "";
+      if (row.first_line && row.first_line->difference) {
+        const ProbedStatement& first = row.first_line->difference->statement;
+        c.message += "; first in " + place_text(first);
+        c.file = first.file, c.line = first.line;
+      }
       c.pictures = row.pictures;
     }
     cases.push_back(std::move(c));

@@ -8,6 +8,7 @@
 #include "app/case_result.h"
 #include "app/output.h"
 #include "app/table.h"
+#include "check/first_line.h"
 #include "cpu_shaders/lint/lint.h"
 #include "golden/compare_frames.h"
 #include "golden/manifest.h"
@@ -44,6 +45,7 @@ struct GoldenRow {
   std::uint64_t ulp = 0;                 // what is let pass
   std::string description;               // several lines, where they differ
   std::vector<LintFinding> findings;     // where they differ
+  std::optional<FirstLine> first_line;   // where the CPU still draws the image, and this backend does not
   std::string golden_frame, frame;       // hashes; empty where there is none
   std::string shader_file;               // of a user's shader
   std::string written;                   // image, of update

@@ -161,6 +161,27 @@ TEST_CASE("a shader that changed by one ULP is found, and named as the cause; up
   CHECK_FALSE(fs::exists(folder / "out/mine.cpu.difference.png"));
 }
 
+TEST_CASE("where the CPU draws the image and a driver does not, the line that differs is named, once for a shader") {
+  const std::vector<std::string> backends = opengl_backends();
+  if (backends.empty()) return;
+  const Folder folder;
+  const std::string shader = folder.file("s.frag",
+                                         "in vec2 v_uv;\nout vec4 color;\nvoid main() {\n  float a = v_uv.x * 3.0;\n"
+                                         "  float x = sin(a * 13.0);\n  color = vec4(x, a, 0.5, 1.0);\n}\n"),
+                    goldens = folder / "goldens";
+  for (const char* name : {"s", "t"}) REQUIRE(update(goldens, {"--shader", shader, "--name", name}).code == 0);
+  const Run run = check(goldens, {"--on", backends.front(), "--annotate", "github"});
+  CHECK(run.code == 1);
+  const Json row = golden_row(run, "s");
+  CHECK(row["first_line"]["line"] == 5);
+  CHECK(row["first_line"]["value"] == "x");
+  CHECK_FALSE(golden_row(run, "t").contains("first_line"));
+  CHECK(run.err.find(",line=5,") != std::string::npos);
+  // Changed, the CPU draws another image: no driver is to blame.
+  folder.file("s.frag", edited(golden_bytes(shader), "3.0", "3.5"));
+  CHECK_FALSE(golden_row(check(goldens, {"--on", backends.front()}), "s").contains("first_line"));
+}
+
 TEST_CASE("the cause of a difference is the bundle where that changed, and none where nothing did") {
   const Folder folder;
   const std::string bundle = folder / "a.bundle", goldens = folder / "goldens";

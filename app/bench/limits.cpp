@@ -7,7 +7,7 @@
 #include <chrono>
 
 #include "app/bench/limits_kernel.h"
-#include "app/quartiles.h"
+#include "app/report/quartiles.h"
 #include "base/parallel.h"
 #include "raster/tiled/aligned.h"
 

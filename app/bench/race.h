@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "app/machines.h"
-#include "app/quartiles.h"
+#include "app/report/quartiles.h"
 #include "bundle/bundle.h"
 #include "raster/tiled/stages.h"
 

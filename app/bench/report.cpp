@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "app/rows_output.h"
-#include "app/table.h"
+#include "app/report/rows_output.h"
+#include "app/report/table.h"
 #include "experiments/chart.h"
 
 namespace twinshade::bench {

@@ -10,16 +10,16 @@
 #include <optional>
 #include <set>
 
-#include "app/dialect.h"
 #include "app/first_line_search.h"
 #include "app/golden/drawing.h"
 #include "app/golden/report.h"
 #include "app/golden/scene.h"
 #include "app/golden/verbs.h"
-#include "app/junit.h"
-#include "app/mismatch.h"
 #include "app/provenance.h"
-#include "app/reports.h"
+#include "app/report/dialect.h"
+#include "app/report/junit.h"
+#include "app/report/mismatch.h"
+#include "app/report/reports.h"
 #include "base/error.h"
 #include "base/names.h"
 #include "cpu_shaders/machine.h"

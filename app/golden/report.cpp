@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 
-#include "app/dialect.h"
-#include "app/first_line_report.h"
-#include "app/mismatch.h"
+#include "app/report/dialect.h"
+#include "app/report/first_line_report.h"
+#include "app/report/mismatch.h"
 
 namespace twinshade {
 namespace {

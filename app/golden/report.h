@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "app/case_result.h"
 #include "app/output.h"
-#include "app/table.h"
+#include "app/report/case_result.h"
+#include "app/report/table.h"
 #include "check/first_line.h"
 #include "cpu_shaders/lint/lint.h"
 #include "golden/compare_frames.h"

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "app/mismatch.h"
+#include "app/report/mismatch.h"
 #include "base/error.h"
 #include "base/names.h"
 #include "golden/content_hashes.h"

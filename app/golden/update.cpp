@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <memory>
 
-#include "app/dialect.h"
 #include "app/golden/drawing.h"
 #include "app/golden/report.h"
 #include "app/golden/scene.h"
 #include "app/golden/verbs.h"
 #include "app/provenance.h"
+#include "app/report/dialect.h"
 #include "base/error.h"
 #include "base/folder_lock.h"
 #include "golden/frame_file.h"

@@ -62,10 +62,10 @@ int run(int argc, char** argv) {
   CLI::App app("One GLSL shading function, two machines, compared bit by bit.", "twinshade");
   app.set_version_flag("--version", TWINSHADE_VERSION);
   app.require_subcommand(1);
-  const std::vector<Verb> verbs{add_list(app),      add_bake(app),   add_render(app),    add_compare(app),
-                                add_translate(app), add_check(app),  add_bench(app),     add_experiment(app),
-                                add_frontier(app),  add_choose(app), add_stability(app), add_eval(app),
-                                add_mediump(app),   add_golden(app)};
+  const std::vector<Verb> verbs{add_list(app),      add_bake(app),    add_render(app),    add_compare(app),
+                                add_translate(app), add_check(app),   add_bench(app),     add_experiment(app),
+                                add_frontier(app),  add_choose(app),  add_stability(app), add_eval(app),
+                                add_mediump(app),   add_profile(app), add_golden(app)};
   // A list is one word, with commas, or several options: what follows it is the verb's (check --on cpu,egl my.frag).
   for (const Verb& verb : verbs)
     for (CLI::Option* option : verb.command->get_options())

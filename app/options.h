@@ -43,6 +43,7 @@ Verb add_stability(CLI::App& app);
 Verb add_eval(CLI::App& app);
 Verb add_golden(CLI::App& app);
 Verb add_mediump(CLI::App& app);
+Verb add_profile(CLI::App& app);
 
 // Every verb.
 struct CommonOptions {

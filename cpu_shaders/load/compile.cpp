@@ -30,6 +30,8 @@ std::vector<std::string> flags_of(const CompileOptions& options) {
                                        kIsaNames[std::size_t(options.isa)]));
   std::vector<std::string> flags;
   for (std::string word; words >> word;) flags.push_back(word);
+  // DWARF 4: of 5 binutils (2.40) does not find what clang inlined.
+  if (options.line_tables) flags.insert(flags.end(), {"-g1", "-gdwarf-4", "-fno-omit-frame-pointer"});
   return flags;
 }
 

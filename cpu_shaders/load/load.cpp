@@ -31,6 +31,12 @@ CodeTarget code_target(Number number, std::optional<Isa> isa) {
   return {Isa::baseline, number};
 }
 
+const ShaderModule& load_module_with_lines(const ShaderSource& source, Number number, std::optional<Isa> isa) {
+  const CodeTarget target = code_target(number, isa);
+  const CompileOptions options{target.isa, 1u << int(target.number), 2, {}, true};
+  return open_module(compile_shader(translate(source).cpp, options), kModuleSymbol);
+}
+
 const ShaderModule& load_module(const ShaderSource& source, Number number, std::optional<Isa> isa) {
   const auto [build_isa, build_number] = code_target(number, isa);
   if (const ShaderModule* builtin = find_builtin_module(source);

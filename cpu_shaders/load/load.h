@@ -17,6 +17,9 @@ namespace twinshade {
 // line), an instruction set that the machine lacks, no compiler.
 const ShaderModule& load_module(const ShaderSource& source, Number number, std::optional<Isa> isa = {});
 
+// The same, compiled on demand with line tables, built-in shaders too.
+const ShaderModule& load_module_with_lines(const ShaderSource& source, Number number, std::optional<Isa> isa = {});
+
 // The built-in module of a source, null where it is not built in.
 const ShaderModule* find_builtin_module(const ShaderSource& source);
 
@@ -33,6 +36,7 @@ struct CompileOptions {
   std::uint32_t numbers = 1;  // bit n: enum Number's n-th
   int optimisation = 2;       // -O0 to -O3
   std::string compiler;       // as find_compiler takes it
+  bool line_tables = false;   // with what tells profilers its lines of GLSL and its callers: frame pointers
 };
 // Compiles C++ that the translator wrote to a shared object in the cache (or finds it there) and returns its path.
 // UserError where there is no compiler, the cache cannot be written, or the compiler refuses (its first error).

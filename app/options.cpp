@@ -366,7 +366,8 @@ void add_number_options(CLI::App& command, CpuOptions& options, const std::strin
     if (const std::optional<Precision> precision = parse_precision(text)) {
       if (!options.emulates)
         throw UserError("--number " + text +
-                        ": halves have other bits and another speed by design; twinshade render and eval compute them");
+                        ": halves have other bits and another speed by design; twinshade render and eval compute them, "
+                        "twinshade mediump tells which lines stand them");
       options.precision = *precision;
       return;
     }

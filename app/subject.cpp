@@ -425,6 +425,14 @@ Subject load_subject(const SubjectOptions& options, const ShadingOptions& shadin
   return subject;
 }
 
+void note_precision(const Output& output, const ShaderSource& source, Precision precision) {
+  if (precision != Precision::mediump || source.es) return;
+  output.note(
+      (source.files.empty() ? source.name : source.files[0]) +
+      ": precision qualifiers mean something in GLSL ES alone, so --number mediump changes nothing here; float16 "
+      "computes all in half");
+}
+
 std::vector<Shading> load_shadings(const ShadingOptions& options, const Subject& subject) {
   std::vector<Shading> shadings;
   if (!options.shader.empty()) {

@@ -93,6 +93,9 @@ FrameOptions frame_options(const SubjectOptions& options, const Scene& scene);
 // What is said of a scene once it is read.
 void note_scene(const Output& output, const SubjectOptions& options, const Scene& scene);
 
+// Where --number mediump changes nothing, since the shader's GLSL gives precision qualifiers no meaning.
+void note_precision(const Output& output, const ShaderSource& source, Precision precision);
+
 // The shaders to draw with, in registry order.
 std::vector<Shading> load_shadings(const ShadingOptions& options, const Subject& subject);
 

@@ -18,7 +18,6 @@ namespace {
 
 constexpr double kDefaultFloat = 10;
 constexpr double kDefaultInteger = 15;
-constexpr std::size_t kUniformSets = 8;
 constexpr std::uint32_t kTexels = 16;
 constexpr std::uint64_t kDomain = 0x636865636b;  // "check"
 
@@ -68,7 +67,7 @@ class Generator {
     if (const InputRange* declared = find_range(ranges_, name)) range = *declared;
     check(range, type);
     const std::size_t rows = options_.rows, quarter = rows / 4;
-    const std::size_t same = std::max<std::size_t>(4, (rows / kUniformSets + 3) / 4 * 4);  // whole quads
+    const std::size_t same = std::max<std::size_t>(4, (rows / options_.uniform_sets + 3) / 4 * 4);  // whole quads
     for (std::size_t row = 0; row < rows; ++row) {
       const std::size_t drawn = uniform ? row / same : row;
       Stream stream(options_.seed, variable, drawn);

@@ -3,28 +3,38 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "evaluate/cases.h"
+#include "evaluate/compare_outputs.h"
 #include "evaluate/evaluator.h"
 
 namespace twinshade {
 
+// What a shader gives with some of its lines in half.
+struct HalfResult {
+  // Times the tolerance that the worst value is off; infinite: one that is not finite where another is expected, a bool
+  // or integer that is another, a row that is discarded or no longer is, a loop that does not end.
+  double off = 0;
+  std::optional<OutputDifference> worst;  // none where all is as expected, and where `other` says what is not
+  std::string other;                      // "does not end", "discards row 3", "keeps row 3", which float discards
+};
+
 struct HalfLine {
   std::string file;
   int line = 0;
-  // Times the tolerance that the worst value is off, with this line alone in half; infinite: a value that is not finite
-  // where another is expected, a bool or integer that is another, a row that is discarded or no longer is.
-  double alone = 0;
+  HalfResult alone;       // with this line alone in half
   bool together = false;  // it is among those that can be in half at once
 };
 
 struct HalfLines {
   std::vector<HalfLine> lines;         // by file and line, the shader's own file first
-  double together = 0;                 // times the tolerance, with all of those
-  double all = 0;                      // ... with every line
-  std::size_t rows = 0, left_out = 0;  // left out: where float itself gives no finite value
+  HalfResult together, all;            // with all of those; with every line
+  std::optional<HalfResult> declared;  // ES alone: as its qualifiers have it (Precision::mediump)
+  std::size_t rows = 0, left_out = 0;  // left out: nothing is expected of any output
+  std::vector<std::string> unjudged;   // components of outputs of which nothing is expected in any row
 };
 
 // What is expected of a shader that has no cases: what float gives, but where that is not finite.
@@ -33,7 +43,8 @@ Cases cases_of_float(Evaluator& evaluator, const ShaderSource& shader, const Val
 
 // Each line by itself; then, from the least harmful on, those that still leave all values within `cases.tolerance`
 // together with those before them: not always the largest set. done: called with how many runs are behind, and how many
-// there are at most. UserError as of Evaluator::run and check_expected, and where float itself is beyond the tolerance.
+// there are at most. UserError as of Evaluator::run and check_expected, where float itself is beyond the tolerance, and
+// where nothing is expected of anything.
 HalfLines find_half_lines(Evaluator& evaluator, ShaderSource shader, Cases cases, const EvaluationTarget& target,
                           const std::string& cases_file,
                           const std::function<void(std::size_t done, std::size_t all)>& done = {});

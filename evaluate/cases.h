@@ -20,8 +20,9 @@ struct Tolerance {
 
 // Of one output.
 struct ExpectedOutput {
-  Values values;                        // doubles hold what the file says, bits that rounded to float
-  std::vector<std::uint8_t> has_value;  // by row: 0 where the file has null, which admits everything
+  Values values;                            // doubles hold what the file says, bits that rounded to float
+  std::vector<std::uint8_t> has_value;      // by row: 0 where the file has null, which admits everything
+  std::vector<std::uint8_t> left_out = {};  // by row and component: 1 where everything is admitted; empty: nowhere
 };
 
 struct Cases {

@@ -25,8 +25,9 @@ struct OutputComparison {
   std::vector<OutputDifference> failures;  // beyond the tolerance, by row, then in the order of Cases::expected
   std::size_t failed_rows = 0;
   std::optional<OutputDifference> worst;  // of all values, by ULP; none where nothing is expected
-  // How many times what the tolerance allows the value is off that is furthest off by that measure: up to 1 unless
-  // there are failures. Infinite where no tolerance would do, and where any difference is a failure.
+  // The value that is furthest off by the tolerance's measure, and how many times what is allowed that is: up to 1
+  // unless there are failures, infinite where no tolerance would do or none is given. None where all is as expected.
+  std::optional<OutputDifference> furthest;
   double times_allowed = 0;
 };
 

@@ -121,6 +121,7 @@ struct EvalVerb {
         sources[i] = load_fragment_shader(paths[i].shader, source);
         cases[i].hash = content_hash(sources[i]);
         sources[i].precision = precision;
+        note_precision(output, sources[i], precision);
         cases[i].cases = parse_cases(read_file(paths[i].cases, kMostCasesBytes), paths[i].cases);
       });
     }

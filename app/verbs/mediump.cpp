@@ -9,6 +9,7 @@
 #include "app/machines.h"
 #include "app/output.h"
 #include "app/provenance.h"
+#include "app/report/statement_text.h"
 #include "app/report/table.h"
 #include "base/error.h"
 #include "base/file.h"
@@ -38,7 +39,7 @@ struct MediumpVerb {
   SourceOptions source;
   std::string shader, cases_file, inputs_file;
   Tolerance tolerance{0, 1.0 / 510, 0};
-  GenerateOptions generate;
+  GenerateOptions generate{16384, 1, 64};
 
   int run() const {
     apply(common);
@@ -55,8 +56,8 @@ struct MediumpVerb {
         });
     Provenance provenance(common);
     provenance.add_shader(shader, content_hash(loaded));
-    output.json(json_of(found, SourceLines(loaded), cases.tolerance, provenance.json()));
-    if (!found.lines.empty()) output.text(table_of(found, SourceLines(loaded)) + "\n");
+    output.json(json_of(found, cases, SourceLines(loaded), provenance.json()));
+    if (!found.lines.empty()) output.text(table_of(found, cases, SourceLines(loaded)) + "\n");
     output.text(summary(found));
     return 0;
   }
@@ -80,61 +81,100 @@ struct MediumpVerb {
 
   // Of what is allowed.
   static std::string part(double off) {
-    if (!std::isfinite(off)) return "no number";
-    return off < 99.5 ? fmt::format("{:.2g}", off) : fmt::format("{:.0f}", off);
+    if (!std::isfinite(off)) return "inf";
+    return off < 999.5 ? fmt::format("{:.3g}", off) : fmt::format("{:.0f}", off);
+  }
+
+  static std::string worst(const HalfResult& result, const Cases& cases) {
+    if (!result.worst) return result.other;
+    const Values& output = cases.expected[result.worst->output].values;
+    return fmt::format("{} {:.4g}, not {:.4g}", component_name(output.name, output.type, result.worst->component),
+                       result.worst->got, result.worst->expected);
   }
 
   static std::string verdict(const HalfLine& line) {
-    return line.together ? "mediump" : line.alone <= 1 ? "by itself" : "highp";
+    return line.together ? "mediump" : line.alone.off <= 1 ? "by itself" : "highp";
   }
 
   // Lines of several files say which.
-  static std::string table_of(const HalfLines& found, const SourceLines& text) {
+  static std::string table_of(const HalfLines& found, const Cases& cases, const SourceLines& text) {
     Table table;
     table.column("line", Table::Align::right);
     table.column("may be");
     table.column("alone", Table::Align::right);
+    table.column("worst");
     table.column("");
     for (const HalfLine& line : found.lines)
       table.row(
           {line.file == found.lines[0].file ? std::to_string(line.line) : fmt::format("{}:{}", line.file, line.line),
-           verdict(line), part(line.alone), text.text(line_name(line.file), line.line)});
+           verdict(line), part(line.alone.off), worst(line.alone, cases),
+           statement_text(text, line_name(line.file), line.line)});
     return table.text();
   }
 
-  static std::string summary(const HalfLines& found) {
+  std::string summary(const HalfLines& found) const {
     if (found.lines.empty()) return "no line computes floats\n";
     std::size_t together = 0, alone = 0;
-    for (const HalfLine& line : found.lines) together += line.together, alone += !line.together && line.alone <= 1;
+    for (const HalfLine& line : found.lines) together += line.together, alone += !line.together && line.alone.off <= 1;
     std::string text =
         fmt::format("{} of {} lines may be mediump at once: the worst value is then {} of what is allowed off",
-                    together, found.lines.size(), part(found.together));
-    if (together < found.lines.size()) text += fmt::format(", with every line {}", part(found.all));
+                    together, found.lines.size(), part(found.together.off));
+    if (together < found.lines.size()) text += fmt::format(", with every line {}", part(found.all.off));
+    if (found.declared) text += fmt::format(", as its qualifiers have it {}", part(found.declared->off));
     text += "\n";
     if (alone > 0) text += fmt::format("{} more by themselves, but not beside these\n", alone);
+    if (!found.unjudged.empty())
+      text += fmt::format("not judged, since {} in any row: {}\n",
+                          cases_file.empty() ? "float gives no finite value" : "the cases expect nothing of it",
+                          fmt::join(found.unjudged, ", "));
     if (found.left_out > 0)
-      text += fmt::format("{} of {} rows are left out: they are discarded, or float itself gives no finite value\n",
-                          found.left_out, found.rows);
+      text += fmt::format("{} of {} rows are left out: {}\n", found.left_out, found.rows,
+                          cases_file.empty() ? "they are discarded, or float itself gives no finite value"
+                                             : "the cases expect nothing of them");
     return text;
   }
 
-  static Json number(double off) { return std::isfinite(off) ? Json(off) : Json(nullptr); }
+  // With the inputs and uniforms of the worst row.
+  static Json result_json(const HalfResult& result, const Cases& cases) {
+    Json json{{"off", std::isfinite(result.off) ? Json(result.off) : Json(nullptr)}};
+    if (!result.other.empty()) json["other"] = result.other;
+    if (!result.worst) return json;
+    const OutputDifference& worst = *result.worst;
+    const Values& output = cases.expected[worst.output].values;
+    json["output"] = component_name(output.name, output.type, worst.component);
+    json["row"] = worst.row;
+    json["float"] = worst.expected;
+    json["half"] = std::isfinite(worst.got) ? Json(worst.got) : Json(nullptr);
+    Json values = Json::object();
+    for (const auto* list : {&cases.table.inputs, &cases.table.uniforms})
+      for (const Values& value : *list) {
+        const std::size_t row = value.row_count() == 1 ? 0 : worst.row;
+        for (std::uint32_t c = 0; c < value.type.components(); ++c) {
+          const double x = value_at(value, row, c);
+          values[component_name(value.name, value.type, c)] = std::isfinite(x) ? Json(x) : Json(nullptr);
+        }
+      }
+    json["values"] = values;
+    return json;
+  }
 
-  static Json json_of(const HalfLines& found, const SourceLines& text, const Tolerance& tolerance,
-                      const Json& provenance) {
+  static Json json_of(const HalfLines& found, const Cases& cases, const SourceLines& text, const Json& provenance) {
     Json lines = Json::array();
     for (const HalfLine& line : found.lines)
       lines.push_back({{"file", line.file},
                        {"line", line.line},
                        {"may_be", verdict(line)},
-                       {"off_alone", number(line.alone)},
-                       {"text", text.text(line_name(line.file), line.line)}});
+                       {"alone", result_json(line.alone, cases)},
+                       {"text", statement_text(text, line_name(line.file), line.line)}});
+    const Tolerance& tolerance = cases.tolerance;
     return {{"provenance", provenance},
             {"rows", found.rows},
             {"left_out", found.left_out},
+            {"not_judged", found.unjudged},
             {"tolerance", {{"ulp", tolerance.ulp}, {"abs", tolerance.abs}, {"rel", tolerance.rel}}},
-            {"off_together", number(found.together)},
-            {"off_all", number(found.all)},
+            {"together", result_json(found.together, cases)},
+            {"all", result_json(found.all, cases)},
+            {"as_declared", found.declared ? result_json(*found.declared, cases) : Json(nullptr)},
             {"lines", lines}};
   }
 };
@@ -160,7 +200,7 @@ Verb add_mediump(CLI::App& app) {
   add_distance("--abs", verb->tolerance.abs,
                "how far off an output may be (default: 1/510, half a step of 8 bits; beside --rel, too)");
   add_distance("--rel", verb->tolerance.rel, "... as a part of its value; either is enough (default: 0)");
-  add_whole_option(*command, "--rows", "rows of generated inputs (default: 2048)", 1, kMostTableRows,
+  add_whole_option(*command, "--rows", "rows of generated inputs (default: 16384)", 1, kMostTableRows,
                    [verb = verb.get()](std::uint64_t rows) { verb->generate.rows = std::size_t(rows); });
   command->get_option("--rows")->excludes(cases);
   command->add_option("--inputs", verb->inputs_file, "ranges of inputs (default: SHADER.inputs, where there is one)")

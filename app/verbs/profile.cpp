@@ -14,6 +14,7 @@
 #include "app/profile/code_lines.h"
 #include "app/profile/pc_sampler.h"
 #include "app/provenance.h"
+#include "app/report/statement_text.h"
 #include "app/report/table.h"
 #include "app/subject.h"
 #include "base/error.h"
@@ -175,7 +176,7 @@ struct ProfileVerb {
       table.row({fmt::format("{:.1f}", percent(line.samples, found.in_shader)),
                  line.at.file == source.files[0] ? std::to_string(line.at.line)
                                                  : fmt::format("{}:{}", line.at.file, line.at.line),
-                 text.text(line_name(line.at.file), line.at.line)});
+                 statement_text(text, line_name(line.at.file), line.at.line)});
     }
     std::size_t rest = 0;
     for (std::size_t i = told; i < found.lines.size(); ++i) rest += found.lines[i].samples;
@@ -203,7 +204,7 @@ struct ProfileVerb {
                        {"line", line.at.line},
                        {"samples", line.samples},
                        {"share", percent(line.samples, found.in_shader) / 100},
-                       {"text", text.text(line_name(line.at.file), line.at.line)}});
+                       {"text", statement_text(text, line_name(line.at.file), line.at.line)}});
     return {{"provenance", provenance},
             {"technique", shader.technique},
             {"frame", found.hash},

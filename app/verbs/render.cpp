@@ -71,6 +71,7 @@ struct RenderVerb {
     Subject ready;
     if (!traced) ready = load_subject(subject, shading, common, output, file);
     const Shading shader = traced ? Shading{kReferenceTechnique, "", "", {}} : load_shadings(shading, ready).front();
+    note_precision(output, shader.source, cpu.precision);
     DrawOptions options;
     options.attributes = attributes;
     output.progress("drawing " + shader.technique + " on " + backend);

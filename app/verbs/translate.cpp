@@ -57,6 +57,7 @@ struct TranslateVerb {
     options.readable = true;
     ShaderSource narrowed = source;
     narrowed.precision = precision;
+    note_precision(output, source, precision);
     const Translation translation = translate(narrowed, options);
     const std::vector<LintFinding> findings = findings_of(source);  // before anything is written: it may refuse, too
     if (file.empty())

@@ -169,7 +169,7 @@ bool FunctionEmitter::is_served_in_full() const {
 
 void FunctionEmitter::refuse_bits(const Instruction& i, const std::string& what) const {
   if (shared_.precision == Precision::half && runs_in_double_)
-    throw UserError(module_.position(i).text() + ": " + what + ": cannot be evaluated in half");
+    throw UserError(module_.position(i).text() + ": " + what + ": cannot be evaluated in half: it is of a float's bits; leave it out, or declare what is mediump");
 }
 
 }  // namespace twinshade::spirv

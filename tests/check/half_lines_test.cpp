@@ -46,14 +46,14 @@ TEST_CASE("a line that halves cannot hold is told from one that they can, by how
   REQUIRE(found.at.size() == 4);
   CHECK_FALSE(found.at.contains(6));
   const double cell = 3.70031f * 1024 - 3789;
-  CHECK(found.at.at(3).alone == doctest::Approx(cell / 0.002).epsilon(0.01));
+  CHECK(found.at.at(3).alone.off == doctest::Approx(cell / 0.002).epsilon(0.01));
   CHECK_FALSE(found.at.at(3).together);
-  CHECK(found.at.at(4).alone < 1);
+  CHECK(found.at.at(4).alone.off < 1);
   CHECK(found.at.at(4).together);
-  CHECK(found.at.at(5).alone == HUGE_VAL);
+  CHECK(found.at.at(5).alone.off == HUGE_VAL);
   CHECK_FALSE(found.at.at(5).together);
-  CHECK(found.lines.all == HUGE_VAL);
-  CHECK(found.lines.together <= 1);
+  CHECK(found.lines.all.off == HUGE_VAL);
+  CHECK(found.lines.together.off <= 1);
   CHECK(found.lines.rows == 2);
   CHECK(found.lines.left_out == 0);
 }
@@ -72,11 +72,11 @@ TEST_CASE("lines that pass by themselves but not together are chosen from the le
   const auto half = [&](double v) { return std::nearbyint(v / step) * step; };
   CHECK(half(exact) != exact);
   const Found one = found_in(text, table, {0, 1, 0});
-  const double off = one.at.at(3).alone;
+  const double off = one.at.at(3).alone.off;
   CHECK(off > 0);
-  CHECK(one.at.at(4).alone == off);
+  CHECK(one.at.at(4).alone.off == off);
   const Found found = found_in(text, table, {0, off * 2.2, 0});
-  CHECK(found.at.at(5).alone < 1);
+  CHECK(found.at.at(5).alone.off < 1);
   int chosen = 0;
   for (const auto& [line, at] : found.at) chosen += at.together && line < 6;
   CHECK(chosen == 2);
@@ -92,8 +92,45 @@ TEST_CASE("rows without a finite value in float are left out; one that is discar
   CHECK(divides.at.at(3).together);
   const Found discards =
       found_in("in float x; out float y;\nvoid main() {\n  if (x == 1.0) discard;\n  y = x;\n}\n", table, {0, 0.01, 0});
-  CHECK(discards.at.at(3).alone == HUGE_VAL);
+  CHECK(discards.at.at(3).alone.off == HUGE_VAL);
   CHECK(discards.at.at(4).together);
+}
+
+TEST_CASE("what float gives no number for is left out by component, and named where that is always") {
+  const ValueTable table{2, {floats("x", "float", {0.7001f, 0.9f})}, {}, {}, {}};
+  const Found found = found_in(
+      "in float x; out vec3 y; out vec2 z;\nvoid main() {\n  float b = x * 1000.0;\n"
+      "  y = vec3(b, 0.0, sqrt(x - 2.0));\n  z = vec2(log(x - 0.8), x);\n}\n",
+      table, {0, 0.01, 0});
+  CHECK(found.at.at(3).alone.off > 1);
+  REQUIRE(found.at.at(3).alone.worst.has_value());
+  CHECK(found.at.at(3).alone.worst->component == 0);
+  CHECK(found.lines.unjudged == std::vector<std::string>{"y.z"});
+  CHECK(found.lines.left_out == 0);
+  CHECK_THROWS_WITH_AS(found_in("in float x; out float y;\nvoid main() { y = sqrt(x - 2.0); }\n", table, {0, 0.01, 0}),
+                       doctest::Contains("test.frag: there is no value to judge by"), UserError);
+  CHECK_THROWS_AS(found_in("in float x; out float y;\nvoid main() { y = x; discard; }\n", table, {0, 0.01, 0}),
+                  UserError);
+}
+
+TEST_CASE("a loop that ends in float alone is a finding, not an error") {
+  // From 2048 on x + 1 is x.
+  const Found found = found_in(
+      "in float x; out float y;\nvoid main() {\n  y = x;\n  for (float i = 0.0; i < 3000.0; i += x) y += 0.001;\n}\n",
+      {1, {floats("x", "float", {1})}, {}, {}, {}}, {0, 0.01, 0});
+  CHECK(found.at.at(4).alone.off == HUGE_VAL);
+  CHECK(found.at.at(4).alone.other == "does not end");
+  CHECK(found.at.at(3).together);
+}
+
+TEST_CASE("of ES as its qualifiers have it is told, too") {
+  const std::string body = "in float x; out float y;\nvoid main() {\n  y = fract(x * 1024.0);\n}\n";
+  const ValueTable table{1, {floats("x", "float", {3.70031f})}, {}, {}, {}};
+  const Found narrow = found_in("#version 300 es\nprecision mediump float;\n" + body, table, {0, 0.01, 0});
+  REQUIRE(narrow.lines.declared.has_value());
+  CHECK(narrow.lines.declared->off > 1);
+  CHECK(found_in("#version 300 es\nprecision highp float;\n" + body, table, {0, 0.01, 0}).lines.declared->off == 0);
+  CHECK_FALSE(found_in(body, table, {0, 0.01, 0}).lines.declared.has_value());
 }
 
 TEST_CASE("cases that float itself fails are refused, and a shader without floats has no lines") {
@@ -101,9 +138,9 @@ TEST_CASE("cases that float itself fails are refused, and a shader without float
   const ShaderSource shader = fragment("in float x; out float y;\nvoid main() { y = x; }\n");
   Cases cases{{1, {floats("x", "float", {1})}, {}, {}, {}}, {{floats("y", "float", {2}), {1}}}, {0, 0.5, 0}};
   CHECK_THROWS_WITH_AS(find_half_lines(evaluator, shader, cases, kCpu, "my.json"),
-                       doctest::Contains("my.json: 1 rows are beyond the tolerance in float"), UserError);
+                       doctest::Contains("my.json: row 0 is beyond the tolerance in float"), UserError);
   const Found none = found_in("flat in int i; out int y;\nvoid main() { y = i; }\n",
                               {1, {test::ints("i", "int", {1})}, {}, {}, {}}, {0, 0.5, 0});
   CHECK(none.at.empty());
-  CHECK(none.lines.together == 0);
+  CHECK(none.lines.together.off == 0);
 }

@@ -305,7 +305,11 @@ void add_shading_options(CLI::App& command, ShadingOptions& options, const std::
   command.add_option("--shader", options.shader, "draw with this fragment shader instead of a technique")
       ->type_name("MY.frag");
   add_source_options(command, options.source);
-  for (const char* option : {"--include", "--define"})
+  command
+      .add_option("--uniform", options.uniforms,
+                  "value of a uniform of that shader's own, numbers with commas between; again for several")
+      ->type_name("NAME=VALUE,...");
+  for (const char* option : {"--include", "--define", "--uniform"})
     command.get_option(option)->needs(command.get_option("--shader"));
 }
 

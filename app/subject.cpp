@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/memory_needed.h"
+#include "app/uniform_values.h"
 #include "base/error.h"
 #include "base/names.h"
 #include "base/words.h"
@@ -68,9 +69,20 @@ std::vector<LitTechnique> coefficients_read(const std::string& code, const Scene
   return read;
 }
 
+// Beside the bundle's own, which are those of baked light and stay.
+void add_uniforms(Bundle& bundle, std::vector<Uniform> own) {
+  for (Uniform& uniform : own) {
+    const bool taken = std::any_of(bundle.uniforms.begin(), bundle.uniforms.end(),
+                                   [&](const Uniform& other) { return other.name == uniform.name; });
+    if (taken) throw UserError("--uniform " + uniform.name + ": the scene has it: leave it out");
+    bundle.uniforms.push_back(std::move(uniform));
+  }
+}
+
 // A uniform of a user's shader that nothing gives a value is refused before the scene is lit: that takes long. The only
 // ones of scenes are those of baked light.
-void require_initial_values(const ShaderSource& source, const std::vector<LitTechnique>& baked) {
+void require_initial_values(const ShaderSource& source, const std::vector<LitTechnique>& baked,
+                            const std::vector<Uniform>& given) {
   Reflection reflection;
   try {
     reflection = translate(source).reflection;
@@ -79,9 +91,11 @@ void require_initial_values(const ShaderSource& source, const std::vector<LitTec
   for (const ReflectedUniform& u : reflection.uniforms) {
     const bool of_light = !baked.empty() && (u.name.starts_with("volume_") || u.name.starts_with("light_"));
     if (of_light || !u.initial.empty()) continue;
+    if (std::any_of(given.begin(), given.end(), [&](const Uniform& own) { return own.name == u.name; })) continue;
     throw UserError(SourceLines(source).declaration(u.name.substr(0, u.name.find_first_of(".["))).text() +
                     ": uniform \"" + u.name + "\" is none of a scene's and has no initial value: " +
-                    initial_value_remedy(u.name, u.scalar, u.columns, u.rows, u.array_length));
+                    initial_value_remedy(u.name, u.scalar, u.columns, u.rows, u.array_length) + ", or add --uniform " +
+                    u.name + "=VALUE");
   }
 }
 
@@ -166,7 +180,12 @@ Bundle bundle_from_file(const SubjectOptions& options, const CommonOptions& comm
 Subject subject_from_file(const SubjectOptions& options, const ShadingOptions& shading, const CommonOptions& common) {
   Subject subject;
   subject.bundle = bundle_from_file(options, common);
-  if (!shading.shader.empty()) return subject;
+  if (!shading.shader.empty()) {
+    if (!shading.uniforms.empty())
+      add_uniforms(subject.bundle,
+                   uniform_values(load_fragment_shader(shading.shader, shading.source), shading.uniforms));
+    return subject;
+  }
   choose(
       subject, chosen_techniques(shading), shading,
       [&](const TechniqueInfo& technique, CoefficientStorage storage) {
@@ -380,17 +399,20 @@ Subject light_subject(const LitScene& lit, const SubjectOptions& options, const 
                       const CommonOptions& common, const Output& output) {
   Subject subject;
   std::vector<LitTechnique> baked;
+  std::vector<Uniform> own;
   if (shading.shader.empty()) {
     subject = plan_subject(lit, options, shading);
     baked = subject.drawn;
   } else {
     const ShaderSource source = load_fragment_shader(shading.shader, shading.source);
     baked = coefficients_read(code_of(source.text), lit.scene, shading.light);
-    require_initial_values(source, baked);
+    own = uniform_values(source, shading.uniforms);
+    require_initial_values(source, baked, own);
   }
   require_lightmap_memory(options, baked);
   require_vertex_memory(lit.scene.positions.size(), baked);
   subject.bundle = bundle_from_scene(options, shading, lit, baked, common, output);
+  add_uniforms(subject.bundle, std::move(own));
   return subject;
 }
 

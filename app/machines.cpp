@@ -92,7 +92,9 @@ Frame Machines::draw(const std::string& backend, const Bundle& bundle, const Sha
     return frame;
   } catch (const UnboundError& error) {
     const std::string whole = error.variable.substr(0, error.variable.find_first_of(".["));  // of "light.colour"
-    throw UserError(SourceLines(source).declaration(whole).text() + ": " + error.reason);
+    const bool texture = error.reason.starts_with("texture ");
+    throw UserError(SourceLines(source).declaration(whole).text() + ": " + error.reason +
+                    (texture ? "; a sampler2D of your own gets a picture by --texture " + whole + "=FILE" : ""));
   }
 }
 

@@ -309,7 +309,9 @@ void add_shading_options(CLI::App& command, ShadingOptions& options, const std::
       .add_option("--uniform", options.uniforms,
                   "value of a uniform of that shader's own, numbers with commas between; again for several")
       ->type_name("NAME=VALUE,...");
-  for (const char* option : {"--include", "--define", "--uniform"})
+  command.add_option("--texture", options.textures, "picture for a sampler2D of that shader's own; again for several")
+      ->type_name("NAME=FILE");
+  for (const char* option : {"--include", "--define", "--uniform", "--texture"})
     command.get_option(option)->needs(command.get_option("--shader"));
 }
 

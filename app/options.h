@@ -90,6 +90,7 @@ struct ShadingOptions {
   std::string shader;                   // a user's fragment shader, or empty
   SourceOptions source;                 // of that
   std::vector<std::string> uniforms;    // of that: "NAME=VALUE,..." (app/uniform_values.h)
+  std::vector<std::string> textures;    // of that: "NAME=FILE" (app/texture_files.h)
   LightSource light = LightSource::automatic;
   std::uint32_t reference_rays = 1024;    // technique reference
   int reference_order = 0;                // SH order that the environment is cut to for it; 0: as it is

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/memory_needed.h"
+#include "app/texture_files.h"
 #include "app/uniform_values.h"
 #include "base/error.h"
 #include "base/names.h"
@@ -69,14 +70,27 @@ std::vector<LitTechnique> coefficients_read(const std::string& code, const Scene
   return read;
 }
 
-// Beside the bundle's own, which are those of baked light and stay.
-void add_uniforms(Bundle& bundle, std::vector<Uniform> own) {
-  for (Uniform& uniform : own) {
-    const bool taken = std::any_of(bundle.uniforms.begin(), bundle.uniforms.end(),
-                                   [&](const Uniform& other) { return other.name == uniform.name; });
-    if (taken) throw UserError("--uniform " + uniform.name + ": the scene has it: leave it out");
-    bundle.uniforms.push_back(std::move(uniform));
+// What the command line gives a user's shader.
+struct OwnResources {
+  std::vector<Uniform> uniforms;
+  std::vector<Texture> textures;
+  OwnResources(const ShaderSource& source, const ShadingOptions& shading)
+      : uniforms(uniform_values(source, shading.uniforms)), textures(texture_files(source, shading.textures)) {}
+};
+
+template <class T>
+void add_own(std::vector<T>& there, std::vector<T> own, const char* option) {
+  for (T& one : own) {
+    const bool taken = std::any_of(there.begin(), there.end(), [&](const T& other) { return other.name == one.name; });
+    if (taken) throw UserError(std::string(option) + one.name + ": the scene has it: leave it out");
+    there.push_back(std::move(one));
   }
+}
+
+// Beside the bundle's own, which stay.
+void add_own_resources(Bundle& bundle, OwnResources own) {
+  add_own(bundle.uniforms, std::move(own.uniforms), "--uniform ");
+  add_own(bundle.textures, std::move(own.textures), "--texture ");
 }
 
 // A uniform of a user's shader that nothing gives a value is refused before the scene is lit: that takes long. The only
@@ -181,9 +195,8 @@ Subject subject_from_file(const SubjectOptions& options, const ShadingOptions& s
   Subject subject;
   subject.bundle = bundle_from_file(options, common);
   if (!shading.shader.empty()) {
-    if (!shading.uniforms.empty())
-      add_uniforms(subject.bundle,
-                   uniform_values(load_fragment_shader(shading.shader, shading.source), shading.uniforms));
+    if (!shading.uniforms.empty() || !shading.textures.empty())
+      add_own_resources(subject.bundle, OwnResources(load_fragment_shader(shading.shader, shading.source), shading));
     return subject;
   }
   choose(
@@ -355,6 +368,7 @@ std::vector<std::string> files_among(std::vector<std::string> names, const std::
 std::vector<std::string> files_read(const SubjectOptions& options, const ShadingOptions& shading) {
   std::vector<std::string> files;
   if (!shading.shader.empty()) files = load_fragment_shader(shading.shader, shading.source).files;
+  for (const std::string& given : shading.textures) files.push_back(texture_file(given));
   for (const auto& more : {files_among({options.scene}, scene_names()),
                            files_among({options.environment, options.second_environment}, environment_names())})
     files.insert(files.end(), more.begin(), more.end());
@@ -399,20 +413,20 @@ Subject light_subject(const LitScene& lit, const SubjectOptions& options, const 
                       const CommonOptions& common, const Output& output) {
   Subject subject;
   std::vector<LitTechnique> baked;
-  std::vector<Uniform> own;
+  std::optional<OwnResources> own;
   if (shading.shader.empty()) {
     subject = plan_subject(lit, options, shading);
     baked = subject.drawn;
   } else {
     const ShaderSource source = load_fragment_shader(shading.shader, shading.source);
     baked = coefficients_read(code_of(source.text), lit.scene, shading.light);
-    own = uniform_values(source, shading.uniforms);
-    require_initial_values(source, baked, own);
+    own.emplace(source, shading);
+    require_initial_values(source, baked, own->uniforms);
   }
   require_lightmap_memory(options, baked);
   require_vertex_memory(lit.scene.positions.size(), baked);
   subject.bundle = bundle_from_scene(options, shading, lit, baked, common, output);
-  add_uniforms(subject.bundle, std::move(own));
+  if (own) add_own_resources(subject.bundle, std::move(*own));
   return subject;
 }
 

@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 constexpr const char* kScene = "scene";
 constexpr const char* kTechnique = "technique";
 constexpr const char* kShader = "shader";
+constexpr const char* kTexture = "texture";
 constexpr const char* kMap = "map";
 constexpr const char* kLight = "light";
 
@@ -52,6 +53,13 @@ bool is_path(const std::string& key, const std::string& value) {
   if (key == kScene) return none_of(scene_names());
   if (key == "env" || key == "env2") return none_of(environment_names());
   return key == kShader || (key == "include" && value.rfind("builtin:", 0) != 0);
+}
+
+// Where in the value of an option the name of a file or folder begins; npos where it has none.
+std::size_t path_in(const std::string& key, const std::string& value) {
+  if (key != kTexture) return is_path(key, value) ? 0 : value.npos;
+  const std::size_t equals = value.find('=');
+  return equals == value.npos ? value.npos : equals + 1;
 }
 
 // The first folder of an absolute path; empty for the root.
@@ -132,7 +140,8 @@ GoldenDrawing given_drawing(const CLI::App& command, const std::string& folder) 
     if (option->count() == 0) continue;
     std::vector<std::string> values = option->results();
     for (std::string& value : values)
-      if (is_path(key, value)) value = seen_from(folder, key, value);
+      if (const std::size_t at = path_in(key, value); at != value.npos)
+        value = value.substr(0, at) + seen_from(folder, key, value.substr(at));
     drawing.emplace_back(key, std::move(values));
   }
   return drawing;
@@ -161,7 +170,9 @@ DrawingOptions parse_drawing(const GoldenDrawing& drawing, const std::string& fo
     if (key == kScene && values.size() != 1) throw UserError("\"draw\": \"scene\" must be one text");
     for (const std::string& value : values) {
       if (value.empty()) throw UserError("\"draw\": \"" + key + "\" is empty");
-      const std::string seen = is_path(key, value) ? seen_from_here(folder, value) : value;
+      const std::size_t at = path_in(key, value);
+      const std::string seen =
+          at == value.npos ? value : value.substr(0, at) + seen_from_here(folder, value.substr(at));
       if (key == kScene)
         positional.push_back(seen);
       else

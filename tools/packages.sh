@@ -3,7 +3,7 @@
 # other scripts, runs alone too. "all" adds what `tools/test.sh --all` needs, "emulator" what tools/emulate_avx512.sh does.
 set -euo pipefail
 
-packages=(ca-certificates cmake ninja-build clang g++ pkg-config
+packages=(ca-certificates cmake ninja-build clang g++ binutils pkg-config
   glslang-dev glslang-tools spirv-headers libglm-dev libopenimageio-dev doctest-dev
   libegl-dev libgl-dev libegl1 libegl-mesa0 libgl1-mesa-dri libosmesa6 libosmesa6-dev
   libcairo2-dev fonts-dejavu-core

@@ -76,10 +76,11 @@ std::map<std::uintptr_t, GlslLine> glsl_lines(const std::vector<std::uintptr_t>&
         begun = true;
       } else if (begun && at < last && !lines.contains(list[at])) {
         GlslLine found;
+        std::size_t longest = 0;  // "a.frag" is the end of "b/a.frag", too
         for (const std::string& file : files)
-          if (is_line_of(line, file, found)) {
+          if (file.size() > longest && is_line_of(line, file, found)) {
             lines[list[at]] = found;
-            break;
+            longest = file.size();
           }
       }
     }

@@ -28,7 +28,7 @@
 namespace twinshade {
 namespace {
 
-constexpr std::size_t kMostSamples = 1 << 20, kMostRows = 30;
+constexpr std::size_t kMostSamples = 1 << 18, kMostRows = 30;
 
 struct LineShare {
   GlslLine at;

@@ -163,13 +163,14 @@ std::string FunctionEmitter::to_store(const Instruction& i, const std::string& v
 // Transcendentals of shaders/exact/ are made of bit casts, which halves would break: they are computed in more digits
 // and their results rounded, as those of the language are.
 bool FunctionEmitter::is_served_in_full() const {
-  return (shared_.precision == Precision::mediump || shared_.precision == Precision::half) && is_served_in_double(module_, *info_.function) &&
-         is_relaxed(info_.function->id);
+  return (shared_.precision == Precision::mediump || shared_.precision == Precision::half) &&
+         is_served_in_double(module_, *info_.function) && is_relaxed(info_.function->id);
 }
 
 void FunctionEmitter::refuse_bits(const Instruction& i, const std::string& what) const {
   if (shared_.precision == Precision::half && runs_in_double_)
-    throw UserError(module_.position(i).text() + ": " + what + ": cannot be evaluated in half: it is of a float's bits; leave it out, or declare what is mediump");
+    throw UserError(module_.position(i).text() + ": " + what +
+                    ": cannot be evaluated in half: it is of a float's bits; leave it out, or declare what is mediump");
 }
 
 }  // namespace twinshade::spirv

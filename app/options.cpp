@@ -58,13 +58,6 @@ T parse_between(const std::string& option, const std::string& text, T least, T m
   return value;
 }
 
-double parse_real(const std::string& option, const std::string& text) {
-  double value = 0;
-  if (!parse_whole(text, value) || !std::isfinite(value))
-    throw UserError(fmt::format("{} {}: must be a finite number", option, text));
-  return value;
-}
-
 void parse_size(const std::string& text, std::uint32_t& width, std::uint32_t& height) {
   const std::size_t cross = text.find('x');
   const std::string_view all(text);
@@ -407,6 +400,13 @@ void add_whole_option(CLI::App& command, const std::string& name, const std::str
   add_parsed(command, name, "N", description, [name, least, most, take = std::move(take)](const std::string& text) {
     take(parse_between(name, text, least, most));
   });
+}
+
+double parse_real(const std::string& option, const std::string& text) {
+  double value = 0;
+  if (!parse_whole(text, value) || !std::isfinite(value))
+    throw UserError(fmt::format("{} {}: must be a finite number", option, text));
+  return value;
 }
 
 void add_source_options(CLI::App& command, SourceOptions& options) {

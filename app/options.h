@@ -136,6 +136,8 @@ void add_whole_option(CLI::App& command, const std::string& name, const std::str
                       std::uint64_t most, std::function<void(std::uint64_t)> take);
 // -I, --include: folders that exist; -D, --define.
 void add_source_options(CLI::App& command, SourceOptions& options);
+// The value of an option. UserError where it is no finite number.
+double parse_real(const std::string& option, const std::string& text);
 void add_time_limit_option(CLI::App& command, double& seconds);
 // Of a command that has --output already.
 void add_picture_options(CLI::App& command, PictureOptions& options);

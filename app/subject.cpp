@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "app/memory_needed.h"
-#include "app/texture_files.h"
-#include "app/uniform_values.h"
+#include "app/own_resources.h"
 #include "base/error.h"
 #include "base/names.h"
 #include "base/words.h"
@@ -68,29 +67,6 @@ std::vector<LitTechnique> coefficients_read(const std::string& code, const Scene
     if (contains_word(code, "volume_" + name)) read.push_back({&technique, CoefficientStorage::volume});
   }
   return read;
-}
-
-// What the command line gives a user's shader.
-struct OwnResources {
-  std::vector<Uniform> uniforms;
-  std::vector<Texture> textures;
-  OwnResources(const ShaderSource& source, const ShadingOptions& shading)
-      : uniforms(uniform_values(source, shading.uniforms)), textures(texture_files(source, shading.textures)) {}
-};
-
-template <class T>
-void add_own(std::vector<T>& there, std::vector<T> own, const char* option) {
-  for (T& one : own) {
-    const bool taken = std::any_of(there.begin(), there.end(), [&](const T& other) { return other.name == one.name; });
-    if (taken) throw UserError(std::string(option) + one.name + ": the scene has it: leave it out");
-    there.push_back(std::move(one));
-  }
-}
-
-// Beside the bundle's own, which stay.
-void add_own_resources(Bundle& bundle, OwnResources own) {
-  add_own(bundle.uniforms, std::move(own.uniforms), "--uniform ");
-  add_own(bundle.textures, std::move(own.textures), "--texture ");
 }
 
 // A uniform of a user's shader that nothing gives a value is refused before the scene is lit: that takes long. The only
@@ -196,7 +172,8 @@ Subject subject_from_file(const SubjectOptions& options, const ShadingOptions& s
   subject.bundle = bundle_from_file(options, common);
   if (!shading.shader.empty()) {
     if (!shading.uniforms.empty() || !shading.textures.empty())
-      add_own_resources(subject.bundle, OwnResources(load_fragment_shader(shading.shader, shading.source), shading));
+      add_own_resources(subject.bundle, OwnResources(load_fragment_shader(shading.shader, shading.source),
+                                                     shading.uniforms, shading.textures));
     return subject;
   }
   choose(
@@ -375,6 +352,14 @@ std::vector<std::string> files_read(const SubjectOptions& options, const Shading
   return files;
 }
 
+void require_one_shading(const ShadingOptions& shading, const std::string& reason) {
+  if (wants_all(shading) || (shading.shader.empty() && shading.techniques.size() != 1))
+    throw UserError("--technique: " + reason + "; name one technique");
+  if (shading.maps.size() != 1 || shading.maps.front() == "all") throw UserError("--map: " + reason + "; name one map");
+  if (shading.light == LightSource::all)
+    throw UserError("--light all: " + reason + "; name lightmap, vertex or volume");
+}
+
 void require_known(const ShadingOptions& shading) {
   if (!shading.shader.empty())
     load_fragment_shader(shading.shader, shading.source);
@@ -420,7 +405,7 @@ Subject light_subject(const LitScene& lit, const SubjectOptions& options, const 
   } else {
     const ShaderSource source = load_fragment_shader(shading.shader, shading.source);
     baked = coefficients_read(code_of(source.text), lit.scene, shading.light);
-    own.emplace(source, shading);
+    own.emplace(source, shading.uniforms, shading.textures);
     require_initial_values(source, baked, own->uniforms);
   }
   require_lightmap_memory(options, baked);

@@ -70,6 +70,9 @@ struct LastLitScene {
 // UserError where a technique, a map or the shader is none: to be asked before anything that takes long.
 void require_known(const ShadingOptions& shading);
 
+// UserError, with the reason, where the options stand for several shadings. reason: "render draws one".
+void require_one_shading(const ShadingOptions& shading, const std::string& reason);
+
 // Says aloud what the loaders had to say. UserError where the scene does not fit into memory, and where `written` or
 // what the output writes would replace a file that it is read from.
 LitScene load_lit_scene(const SubjectOptions& options, const Output& output, const std::string& written = {});

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <charconv>
 #include <cmath>
 #include <memory>
 
@@ -24,10 +23,8 @@ namespace twinshade {
 namespace {
 
 double parse_distance(const std::string& option, const std::string& text) {
-  double value = 0;
-  const auto [stopped, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || stopped != text.data() + text.size() || !std::isfinite(value) || value < 0)
-    throw UserError(fmt::format("{} {}: must be a number, 0 or more: 0.002", option, text));
+  const double value = parse_real(option, text);
+  if (value < 0) throw UserError(fmt::format("{} {}: must be a number, 0 or more: 0.002", option, text));
   return value;
 }
 

@@ -55,12 +55,7 @@ struct ProfileVerb {
   int run() const {
     apply(common);
     const Output output(common);
-    if (wants_all(shading) || (shading.shader.empty() && shading.techniques.size() != 1))
-      throw UserError("--technique: profile looks into one; name one technique");
-    if (shading.maps.size() != 1 || shading.maps.front() == "all")
-      throw UserError("--map: profile looks into one; name one map");
-    if (shading.light == LightSource::all)
-      throw UserError("--light all: profile looks into one; name lightmap, vertex or volume");
+    require_one_shading(shading, "profile looks into one");
     if (cpu.isa) require_isa(*cpu.isa);
     output.require_not_read(files_read(subject, shading));
     require_known(shading);
@@ -233,9 +228,8 @@ Verb add_profile(CLI::App& app) {
       ->add_option_function<std::string>(
           "--seconds",
           [verb = verb.get()](const std::string& text) {
-            char* end = nullptr;
-            verb->seconds = std::strtod(text.c_str(), &end);
-            if (text.empty() || *end != 0 || !(verb->seconds > 0 && verb->seconds <= 3600))
+            verb->seconds = parse_real("--seconds", text);
+            if (!(verb->seconds > 0 && verb->seconds <= 3600))
               throw UserError("--seconds " + text + ": must be a number above 0, at most 3600");
           },
           "how long to draw: a second gives 100 to 1000 samples (default: 5)")

@@ -44,12 +44,7 @@ struct RenderVerb {
     if (backend == "softpipe")
       throw UserError(
           "softpipe draws no picture of its own: it shades what the CPU covered (twinshade compare --on cpu,softpipe)");
-    if (wants_all(shading) || (shading.shader.empty() && shading.techniques.size() != 1))
-      throw UserError("--technique: render draws one; name one technique");
-    if (shading.maps.size() != 1 || shading.maps.front() == "all")
-      throw UserError("--map: render draws one; name one map");
-    if (shading.light == LightSource::all)
-      throw UserError("--light all: render draws one; name lightmap, vertex or volume");
+    require_one_shading(shading, "render draws one");
     if (!file.empty()) {
       require_picture_ending(file);
       for (const char* option : {"--exposure", "--tonemap"})
